@@ -7,8 +7,7 @@ loss and in the steps of the program, and writes weights that the program decide
     python imitation.py runs/gcaps-full-checkpoint.safetensors --set width=128 --out mine.safetensors
     vertifleet evaluate --policies gcaps-full --suite paper-100 --model gcaps-full=mine.safetensors
 
-A graph whose edges are observed (`--set adjacency=profit`) needs samples of a run with the same adjacency,
-and a graph of the other aircraft (`--set aircraft_graph=true`) needs those of a run that has one.
+A graph whose edges are observed (`--set adjacency=profit`) needs samples of a run with the same adjacency.
 After every pass the weights are written, and beside them what the same call with `--resume` goes on from.
 """
 
@@ -26,7 +25,6 @@ from torch import Tensor, nn
 
 from vertifleet import Error
 from vertifleet.torch import GcapsFull, Graph, save, scores
-from vertifleet.torch.twin import FLEET_SHAPE
 
 LOGITS_A_UNIT = 20.0
 """The values of roll-outs are counted in typical full flights; one of these is so many logits."""
@@ -55,8 +53,6 @@ class Samples:
         self.seen["clock"] = torch.zeros_like(aircraft[:, 0])
         if twin.edges:
             self.seen[twin.edges] = part("edges", vertiports, vertiports)
-        if twin.fleet:
-            self.seen[twin.fleet] = part("fleet", *FLEET_SHAPE)
 
     def __len__(self) -> int:
         return len(self.values)
@@ -187,8 +183,6 @@ def main() -> None:
             raise SystemExit(
                 f"the samples show the edges of {of_run.adjacency}, not of {twin.graph.adjacency}"
             )
-        if twin.graph.aircraft_graph and not of_run.aircraft_graph:
-            raise SystemExit("the samples do not show the other aircraft")
         samples = {
             count: Samples(file, count, twin, args.device) for count in header["progress"]["vertiports"]
         }

@@ -8,7 +8,7 @@ use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyMapping};
 use vertifleet_core::check_output;
-use vertifleet_learn::nn::{self, AIRCRAFT_SHOWN, Architecture, FLEET_FEATURES, Inputs};
+use vertifleet_learn::nn::{self, Architecture, Inputs};
 use vertifleet_learn::{TrainingSettings, kinds, shipped};
 
 use crate::failure::Failure;
@@ -90,10 +90,9 @@ impl Model {
     /// The logits [B, N], minus infinity where the mask is 0, and the values [B] of a batch of decisions, as the policy
     /// in Rust computes them. The inputs `nodes` [B, N * F] or [B, N, F], `aircraft` [B, G], `mask` [B, N] and `clock`
     /// [B] or [B, 1], which is the share of the day that is left, are the same as in the observations of the vector
-    /// environment. `edges` [B, N, N] or [B, N * N] are the weights of edges, if the weights' graph has observed ones,
-    /// and `fleet` [B, M, H] or [B, M * H] are the other aircraft, if the weights have a graph of them. For gcaps-x this
-    /// is the output of the layers alone, without the day's prices.
-    #[pyo3(signature = (nodes, aircraft, mask, clock, edges = None, fleet = None))]
+    /// environment. `edges` [B, N, N] or [B, N * N] are the weights of edges, if the weights' graph has observed ones.
+    /// For gcaps-x this is the output of the layers alone, without the day's prices.
+    #[pyo3(signature = (nodes, aircraft, mask, clock, edges = None))]
     fn forward<'py>(
         &self,
         nodes: &Bound<'py, PyAny>,
@@ -101,7 +100,6 @@ impl Model {
         mask: &Bound<'py, PyAny>,
         clock: &Bound<'py, PyAny>,
         edges: Option<&Bound<'py, PyAny>>,
-        fleet: Option<&Bound<'py, PyAny>>,
     ) -> Reduced<'py, Bound<'py, PyAny>> {
         let py = nodes.py();
         let [batch, vertiports] = sizes(mask)?;
@@ -110,10 +108,7 @@ impl Model {
         let shape = net.shape();
         let (size, features) = (shape.vertiports, shape.node_features);
         let policy = &self.model.header().policy;
-        let (edges, fleet) = (Given("edges", edges), Given("fleet", fleet));
-        let edges = edges.read(policy.adjacency().is_observed(), [batch, size * size])?;
-        let of_fleet = [batch, AIRCRAFT_SHOWN * FLEET_FEATURES];
-        let fleet = fleet.read(policy.has_aircraft_graph(), of_fleet)?;
+        let edges = edges_of(edges, policy.adjacency().is_observed(), [batch, size * size])?;
         let nodes = entries("nodes", nodes, [batch, size * features])?;
         let aircraft = entries("aircraft", aircraft, [batch, shape.aircraft_features])?;
         let clock = entries("clock", clock, [batch, 1])?;
@@ -125,7 +120,6 @@ impl Model {
             aircraft: &aircraft,
             mask: &mask,
             edges: &edges,
-            fleet: &fleet,
             clock: &clock,
         };
         let space = py.detach(|| pass(&net, &self.model.weights(), inputs));
@@ -161,25 +155,23 @@ fn sizes(table: &Bound<'_, PyAny>) -> PyResult<[usize; 2]> {
     })
 }
 
-/// An argument that only some weights read, by its name.
-struct Given<'a, 'py>(&'static str, Option<&'a Bound<'py, PyAny>>);
-
-impl Given<'_, '_> {
-    /// Its entries, which must be given if and only if the weights read them.
-    fn read(self, is_read: bool, sizes: [usize; 2]) -> PyResult<Vec<f32>> {
-        let Self(name, given) = self;
-        match (given, is_read) {
-            (Some(array), true) => entries(name, array, sizes),
-            (None, false) => Ok(Vec::new()),
-            (None, true) => {
-                let hint = "the parts of an observation that show them are in the reference of observations";
-                let rule = format!("these weights need {name}");
-                Err(Failure::hinted(rule, hint.to_owned()).into())
-            }
-            (Some(_), false) => {
-                let rule = format!("these weights read no {name}: leave it out");
-                Err(Failure::argument(rule).into())
-            }
+/// The entries of edges, which must be given if and only if the weights read them.
+fn edges_of(
+    given: Option<&Bound<'_, PyAny>>,
+    is_read: bool,
+    sizes: [usize; 2],
+) -> PyResult<Vec<f32>> {
+    match (given, is_read) {
+        (Some(array), true) => entries("edges", array, sizes),
+        (None, false) => Ok(Vec::new()),
+        (None, true) => {
+            let hint =
+                "the parts of an observation that show them are in the reference of observations";
+            Err(Failure::hinted("these weights need edges".to_owned(), hint.to_owned()).into())
+        }
+        (Some(_), false) => {
+            let rule = "these weights read no edges: leave them out".to_owned();
+            Err(Failure::argument(rule).into())
         }
     }
 }

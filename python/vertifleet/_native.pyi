@@ -403,14 +403,12 @@ class Model:
         mask: ArrayLike,
         clock: ArrayLike,
         edges: ArrayLike | None = None,
-        fleet: ArrayLike | None = None,
     ) -> tuple[_Float32, _Float32]:
         """The logits [B, N], minus infinity where the mask is 0, and the values [B] of a batch of
         decisions, as the policy in Rust computes them. The inputs `nodes` [B, N * F] or [B, N, F],
         `aircraft` [B, G], `mask` [B, N] and `clock` [B] or [B, 1], which is the share of the day that
         is left, are the same as in the observations of the vector environment. `edges` [B, N, N] or [B,
-        N * N] are the weights of edges, if the weights' graph has observed ones, and `fleet` [B, M, H]
-        or [B, M * H] are the other aircraft, if the weights have a graph of them. For gcaps-x this is
+        N * N] are the weights of edges, if the weights' graph has observed ones. For gcaps-x this is
         the output of the layers alone, without the day's prices.
         """
     def __eq__(self, other: object, /) -> bool: ...

@@ -1,4 +1,5 @@
-//! The networks' speed for one decision, for decisions in batches, and for a chunk of an update, each on one thread.
+//! The networks' speed for one decision, for decisions in batches, and for a chunk of an update,
+//! each on one thread.
 
 mod work;
 
@@ -28,7 +29,8 @@ fn decisions(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A gradient step on 2,048 decisions, by the size of the chunks: forward pass, backward pass, sum of gradients, Adam.
+/// A gradient step on 2,048 decisions, by the size of the chunks: forward pass, backward pass, sum
+/// of gradients, Adam.
 fn updates(criterion: &mut Criterion) {
     const DECISIONS: usize = 2048;
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");

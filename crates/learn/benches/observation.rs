@@ -1,5 +1,5 @@
-//! Decisions per second over whole days of uniformly random choices, with the observation of §IV.A written for each
-//! decision.
+//! Decisions per second over whole days of uniformly random choices, with the observation of §IV.A
+//! written for each decision.
 
 use std::hint::black_box;
 use std::sync::Arc;

@@ -1,5 +1,5 @@
-//! Decisions per second that `gcaps` learns from, in gradient steps as PPO takes them. `benches/pytorch_update.py`
-//! runs this example and compares it with PyTorch.
+//! Decisions per second that `gcaps` learns from, in gradient steps as PPO takes them.
+//! `benches/pytorch_update.py` runs this example and compares it with PyTorch.
 //!
 //! ```text
 //! update_speed [decisions per step] [decisions per chunk] [seconds]

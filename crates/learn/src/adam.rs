@@ -1,5 +1,5 @@
-//! Adam with stable-baselines3's constants (betas 0.9 and 0.999, epsilon 1e-5), and the gradient clipping that
-//! precedes it.
+//! Adam with stable-baselines3's constants (betas 0.9 and 0.999, epsilon 1e-5), and the gradient
+//! clipping that precedes it.
 
 const BETA_1: f32 = 0.9;
 const BETA_2: f32 = 0.999;
@@ -38,8 +38,8 @@ impl Adam {
 
 /// Shrinks the gradient to `max_norm` where it is longer, as PyTorch's `clip_grad_norm_` does.
 pub(crate) fn clip_norm(gradient: &mut [f32], max_norm: f32) {
-    // Each partial sum has a few thousand entries: few enough for single precision to stay accurate, and the loop is
-    // fast.
+    // Each partial sum has a few thousand entries: few enough for single precision to stay
+    // accurate, and the loop is fast.
     let squares: f64 = gradient
         .chunks(4096)
         .map(|chunk| f64::from(chunk.iter().map(|slope| slope * slope).sum::<f32>()))

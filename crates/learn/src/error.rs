@@ -77,8 +77,8 @@ pub enum Error {
         /// What is wrong.
         rule: String,
     },
-    /// V309: training diverged, and a weight is infinite or NaN. Fix: train with a smaller `learning_rate`, from the
-    /// last checkpoint or from the start.
+    /// V309: training diverged, and a weight is infinite or NaN. Fix: train with a smaller
+    /// `learning_rate`, from the last checkpoint or from the start.
     #[error(
         "training diverged: after update or round {update}, a weight is no finite number any more"
     )]
@@ -86,8 +86,9 @@ pub enum Error {
         /// The update of PPO, or the round of imitation, counted from 1.
         update: u64,
     },
-    /// V311: a run was to start in a folder that holds the checkpoint of an earlier run of the same policy. Fix:
-    /// resume that run with `--resume` (in Python `resume=True`), name another folder, or remove the checkpoint.
+    /// V311: a run was to start in a folder that holds the checkpoint of an earlier run of the same
+    /// policy. Fix: resume that run with `--resume` (in Python `resume=True`), name another folder,
+    /// or remove the checkpoint.
     #[error("{checkpoint} is there already, of an earlier run")]
     EarlierRun {
         /// The checkpoint of the earlier run.

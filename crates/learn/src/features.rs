@@ -1,9 +1,10 @@
-//! The observation of `gcaps` and `mlp` (§IV.A): node features, aircraft state and mask, and the share of the day that
-//! is left, which only the value head sees.
+//! The observation of `gcaps` and `mlp` (§IV.A): node features, aircraft state and mask, and the
+//! share of the day that is left, which only the value head sees.
 //!
-//! The features of node i are U_i, U_max, d_i, r_i, P_i1..P_iN, R_i1..R_iN, where d_i and r_i are what is left of the
-//! current period's demand from and to i. The features of the aircraft are E, its vertiport (one-hot), its battery,
-//! and g_x1..g_xN. Every number is divided by a fixed scale from the network file.
+//! The features of node i are U_i, U_max, d_i, r_i, P_i1..P_iN, R_i1..R_iN, where d_i and r_i are
+//! what is left of the current period's demand from and to i. The features of the aircraft are E,
+//! its vertiport (one-hot), its battery, and g_x1..g_xN. Every number is divided by a fixed scale
+//! from the network file.
 
 use vertifleet_core::{FeatureScales, VertiportIx};
 use vertifleet_sim::{Decision, View};
@@ -56,7 +57,6 @@ impl Observations {
             aircraft: &self.aircraft[..batch * aircraft_features],
             mask: &self.mask[..batch * vertiports],
             edges: &[],
-            fleet: &[],
             clock: &self.clock[..batch],
         }
     }
@@ -119,8 +119,8 @@ impl From<FeatureScales> for Scales {
 }
 
 impl Scales {
-    /// Writes the features of a decision, those of the nodes into `[N x F]` and those of the aircraft into `[G]`.
-    /// Returns the share of the day that is left.
+    /// Writes the features of a decision, those of the nodes into `[N x F]` and those of the
+    /// aircraft into `[G]`. Returns the share of the day that is left.
     ///
     /// # Panics
     /// Panics if the slices have the size of a network with another number of vertiports.
@@ -162,8 +162,8 @@ impl Scales {
         }
     }
 
-    /// Writes ψ_k into `[G]`. Every take-off is with a full battery (Eq. 14), so the charge that is written is the
-    /// capacity.
+    /// Writes ψ_k into `[G]`. Every take-off is with a full battery (Eq. 14), so the charge that is
+    /// written is the capacity.
     ///
     /// # Panics
     /// Panics if the slice has the size of a network with another number of vertiports.

@@ -20,16 +20,18 @@ const MEMBERS: [&str; 8] =
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Header {
     format: &'static str,
-    /// The network that the weights were trained on. Weights of `gcaps-x` were trained on random networks as well.
+    /// The network that the weights were trained on. Weights of `gcaps-x` were trained on random
+    /// networks as well.
     pub network: String,
     /// The policy's kind and sizes.
     pub policy: Architecture,
     /// The number of vertiports and the numbers of features.
     pub shape: FeatureShape,
-    /// What the features are divided by; `None` for policies whose features are relative to the day.
+    /// What the features are divided by; `None` for policies whose features are relative to the
+    /// day.
     pub feature_scales: Option<FeatureScales>,
-    /// The training settings; `None` if another program trained the weights in a way that these settings cannot
-    /// describe.
+    /// The training settings; `None` if another program trained the weights in a way that these
+    /// settings cannot describe.
     pub settings: Option<TrainingSettings>,
     /// The seed of the training run, if it is known.
     pub seed: Option<u32>,
@@ -37,8 +39,8 @@ pub struct Header {
     pub commit: String,
     /// The number of decisions that had been learned from when these weights were kept.
     pub steps: u64,
-    /// The [hash](crate::Model::sha256) of the weights that the run began with; `None` if they were fresh, or if nothing
-    /// is known of them.
+    /// The [hash](crate::Model::sha256) of the weights that the run began with; `None` if they were
+    /// fresh, or if nothing is known of them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub begun_with: Option<String>,
 }

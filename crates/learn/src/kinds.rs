@@ -1,11 +1,12 @@
-//! How the program recognises the files that a training run writes: each begins with its own format.
+//! How the program recognises the files that a training run writes: each begins with its own
+//! format.
 
 use vertifleet_core::OutputKind;
 
 use crate::settings::TrainingSettings;
 
-/// The beginning of a safetensors file whose header starts with a format of this name, in any version. It is a macro
-/// because the text is put together at compile time.
+/// The beginning of a safetensors file whose header starts with a format of this name, in any
+/// version. It is a macro because the text is put together at compile time.
 macro_rules! opening {
     ($format:literal) => {
         concat!(r#"{"__metadata__":{"vertifleet":"{\"format\":\""#, $format)

@@ -1,5 +1,5 @@
-//! A trained network of layers as a policy: it chooses the feasible vertiport with the highest logit (§IV.B, greedy
-//! decoding).
+//! A trained network of layers as a policy: it chooses the feasible vertiport with the highest
+//! logit (§IV.B, greedy decoding).
 
 use vertifleet_core::VertiportIx;
 use vertifleet_policy::{Policy, PolicyError};

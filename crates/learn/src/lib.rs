@@ -1,9 +1,9 @@
-//! Learned policies (§IV): features, networks of layers, the three ways to learn, weights, checkpoints, and the shipped
-//! models.
+//! Learned policies (§IV): features, networks of layers, the three ways to learn, weights,
+//! checkpoints, and the shipped models.
 //!
-//! This crate builds on `vertifleet-policy`. A [`Model`] holds a policy's weights and says where they came from; a
-//! [`TrainingRequest`] starts a [`TrainingRun`], which learns by PPO, by imitation of roll-outs or by evolution; a
-//! [`RunFolder`] writes the files of a run.
+//! This crate builds on `vertifleet-policy`. A [`Model`] holds a policy's weights and says where
+//! they came from; a [`TrainingRequest`] starts a [`TrainingRun`], which learns by PPO, by
+//! imitation of roll-outs or by evolution; a [`RunFolder`] writes the files of a run.
 //!
 //! ```
 //! use std::sync::Arc;

@@ -1,8 +1,9 @@
 //! A trained policy and its file: the weights, a description of them, and where they came from.
 //!
-//! A file is complete in itself: architecture, features and settings are in its header, so the policy runs without the
-//! network file that it was trained on. Weights of `gcaps`, `mlp` and `mlp-full` fit networks with one number of
-//! vertiports; those of `gcaps-x` and `gcaps-full` fit any number.
+//! A file is complete in itself: architecture, features and settings are in its header, so the
+//! policy runs without the network file that it was trained on. Weights of `gcaps`, `mlp` and
+//! `mlp-full` fit networks with one number of vertiports; those of `gcaps-x` and `gcaps-full` fit
+//! any number.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -22,7 +23,8 @@ use crate::tensor_file;
 
 /// Larger files are not read. No weight file of this program comes near this size.
 const LIMIT_BYTES: u64 = 512 << 20;
-/// Weights that fit any number of vertiports have the same shapes for every number; the layout is made for this one.
+/// Weights that fit any number of vertiports have the same shapes for every number; the layout is
+/// made for this one.
 const SOME_VERTIPORTS: usize = 2;
 
 /// A trained policy: its header and its parameters.
@@ -37,8 +39,8 @@ impl Model {
     /// A model with this header and these parameters.
     ///
     /// # Errors
-    /// Returns the rule that is broken if the header is not valid, or if the parameters are not finite or not as many
-    /// as the network has.
+    /// Returns the rule that is broken if the header is not valid, or if the parameters are not
+    /// finite or not as many as the network has.
     pub fn new(header: Header, params: Vec<f32>) -> Result<Self, String> {
         let net = header.network_of_layers(SOME_VERTIPORTS)?;
         if params.len() != net.layout().len() {
@@ -74,8 +76,8 @@ impl Model {
         self.net.layout()
     }
 
-    /// The network of layers for a day with `vertiports` vertiports. If the weights fit one number only, the network
-    /// is for that number, whatever `vertiports` is.
+    /// The network of layers for a day with `vertiports` vertiports. If the weights fit one number
+    /// only, the network is for that number, whatever `vertiports` is.
     ///
     /// # Panics
     /// Panics if the weights fit any number and `vertiports` is 0 or above 4,096.
@@ -91,8 +93,9 @@ impl Model {
         self.net.weights(self.params.clone())
     }
 
-    /// A policy that decides by this model. With `most_rolled_out` of 2 or more, `gcaps-x` rolls that many of its best
-    /// choices out before it decides; with 1 it decides at once, as the other kinds always do.
+    /// A policy that decides by this model. With `most_rolled_out` of 2 or more, `gcaps-x` rolls
+    /// that many of its best choices out before it decides; with 1 it decides at once, as the other
+    /// kinds always do.
     pub fn policy(&self, most_rolled_out: usize) -> Box<dyn Policy> {
         match self.header.policy {
             Architecture::Gcaps(_) | Architecture::Mlp(_) => Box::new(Learned::new(self)),
@@ -106,7 +109,8 @@ impl Model {
     /// Whether the model can decide on this day.
     ///
     /// # Errors
-    /// Returns [`Error::WrongNetwork`] if the day has another number of vertiports than the weights fit.
+    /// Returns [`Error::WrongNetwork`] if the day has another number of vertiports than the weights
+    /// fit.
     pub fn check_fits(&self, scenario: &Scenario) -> Result<(), Error> {
         let found = scenario.vertiports.len();
         match self.header.shape.vertiports {
@@ -127,8 +131,8 @@ impl Model {
         tensor_file::to_bytes(&self.header, tensors)
     }
 
-    /// SHA-256 of the bytes of the weight file, in hexadecimal digits. It identifies the weights: it is what `sha256sum`
-    /// prints for a file that [`write`](Self::write) wrote.
+    /// SHA-256 of the bytes of the weight file, in hexadecimal digits. It identifies the weights:
+    /// it is what `sha256sum` prints for a file that [`write`](Self::write) wrote.
     pub fn sha256(&self) -> String {
         let digest = Sha256::digest(self.to_bytes());
         digest.iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
@@ -145,8 +149,8 @@ impl Model {
     /// Reads a weight file.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be read, is not a weight file, or has other tensors than the policy that
-    /// its header names; the error says what differs.
+    /// Returns an error if the file cannot be read, is not a weight file, or has other tensors than
+    /// the policy that its header names; the error says what differs.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let bytes = vertifleet_core::read_at_most(path, LIMIT_BYTES)?;
         Self::from_bytes(&bytes, &path.display().to_string())
@@ -164,7 +168,8 @@ impl Model {
 fn parse(bytes: &[u8]) -> Result<Model, String> {
     let header = Header::read(tensor_file::header(bytes)?)?;
     let net = header.network_of_layers(SOME_VERTIPORTS)?;
-    // A header may claim more weights than fit in memory, so first check that the file is long enough for them.
+    // A header may claim more weights than fit in memory, so first check that the file is long
+    // enough for them.
     if net.layout().len() > bytes.len() / 4 {
         return Err(format!("{} weights do not fit in the file", net.layout().len()));
     }

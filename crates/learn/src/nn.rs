@@ -1,10 +1,11 @@
-//! The policies' networks of layers, forward and backward: pure functions of slices, without the simulator and without
-//! randomness except for the first weights.
+//! The policies' networks of layers, forward and backward: pure functions of slices, without the
+//! simulator and without randomness except for the first weights.
 //!
-//! All weights of a network are one flat vector that a [`Layout`] describes, so the optimiser, the clipping and the
-//! files need not know the layers. A [`NeuralNetwork`] is immutable and shared; a pass works in a [`Workspace`], which
-//! is allocated once for the largest batch. Everything here runs on one thread: callers cut batches into chunks, give
-//! each a workspace and a [`Gradient`], and add the gradients up in a fixed order.
+//! All weights of a network are one flat vector that a [`Layout`] describes, so the optimiser, the
+//! clipping and the files need not know the layers. A [`NeuralNetwork`] is immutable and shared; a
+//! pass works in a [`Workspace`], which is allocated once for the largest batch. Everything here
+//! runs on one thread: callers cut batches into chunks, give each a workspace and a [`Gradient`],
+//! and add the gradients up in a fixed order.
 
 mod architecture;
 mod batch;
@@ -26,6 +27,5 @@ pub use architecture::{
     Shape,
 };
 pub use batch::{Inputs, Slopes};
-pub use gcaps::{AIRCRAFT_SHOWN, FLEET_FEATURES};
 pub use layout::{Layout, Tensor};
 pub use network::{Gradient, NeuralNetwork, Weights, Workspace};

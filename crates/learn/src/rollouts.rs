@@ -1,9 +1,11 @@
-//! Roll-outs in which a learned policy decides for every aircraft. Each choice of a decision is played on several times,
-//! with what the policy thinks of all later choices perturbed by a little noise, the same for every choice that is
-//! compared. The value of a choice is the mean of what the fleet has earned by then and is worth from there on.
+//! Roll-outs in which a learned policy decides for every aircraft. Each choice of a decision is
+//! played on several times, with what the policy thinks of all later choices perturbed by a little
+//! noise, the same for every choice that is compared. The value of a choice is the mean of what the
+//! fleet has earned by then and is worth from there on.
 //!
-//! `gcaps-x` decides by them if it is told to, and any policy that learns by imitation can learn from its own. All
-//! roll-outs advance side by side, one decision each at a time, so that the network scores them together.
+//! `gcaps-x` decides by them if it is told to, and any policy that learns by imitation can learn
+//! from its own. All roll-outs advance side by side, one decision each at a time, so that the
+//! network scores them together.
 
 use vertifleet_core::{Time, VertiportIx};
 use vertifleet_policy::{DayPrices, PricedChoice, RolloutSettings, Shortlist, fleet_worth_usd};
@@ -14,7 +16,8 @@ use crate::gcaps_x::features::Scene;
 
 /// Why a roll-out that the network scores always has a decision.
 const ASKED: &str = "rollouts that have come to their end are not asked";
-/// Most decisions that are scored at once: one of every roll-out of all choices, with the usual number of roll-outs.
+/// Most decisions that are scored at once: one of every roll-out of all choices, with the usual
+/// number of roll-outs.
 pub(crate) const MOST_ROWS: usize = Shortlist::MOST * ROLLOUTS.rollouts as usize;
 
 /// A learned policy that scores decisions of many roll-outs together.
@@ -34,7 +37,8 @@ pub(crate) trait Scores {
 /// The working memory of the roll-outs of a decision.
 #[derive(Default)]
 pub(crate) struct RolloutPlayer {
-    /// The roll-outs of all choices, choice by choice; those from index `used` on are kept for their allocations.
+    /// The roll-outs of all choices, choice by choice; those from index `used` on are kept for
+    /// their allocations.
     rollouts: Vec<Rollout>,
     used: usize,
     begun: Option<Imagined>,
@@ -50,7 +54,8 @@ struct Rollout {
     /// Its number among the roll-outs of the same choice; number 0 has no noise.
     number: u32,
     simulation: Imagined,
-    /// The profit so far plus the worth of the fleet at the end of the roll-out; `None` until it gets there.
+    /// The profit so far plus the worth of the fleet at the end of the roll-out; `None` until it
+    /// gets there.
     usd: Option<f64>,
     /// The decision to be taken next, between the choices in `listed`.
     next: Option<Decision>,
@@ -58,8 +63,8 @@ struct Rollout {
 }
 
 impl RolloutPlayer {
-    /// The value of each candidate if the policy decides for every aircraft afterwards, dollars. Candidates come with
-    /// their worth to the deciding aircraft alone.
+    /// The value of each candidate if the policy decides for every aircraft afterwards, dollars.
+    /// Candidates come with their worth to the deciding aircraft alone.
     pub(crate) fn values_usd(
         &mut self,
         scorer: &mut impl Scores,
@@ -97,7 +102,8 @@ impl RolloutPlayer {
         &self.values_usd
     }
 
-    /// The candidate with the highest [value](Self::values_usd), the first of them if several are equal.
+    /// The candidate with the highest [value](Self::values_usd), the first of them if several are
+    /// equal.
     pub(crate) fn best(
         &mut self,
         scorer: &mut impl Scores,
@@ -137,7 +143,8 @@ impl RolloutPlayer {
 }
 
 impl Rollout {
-    /// Advances to the next decision between more than one choice; returns false at the end of the roll-out.
+    /// Advances to the next decision between more than one choice; returns false at the end of the
+    /// roll-out.
     fn go_on(&mut self, scorer: &mut impl Scores, prices: &DayPrices, until: Time) -> bool {
         if self.usd.is_some() {
             return false;

@@ -1,31 +1,21 @@
-//! Observations of any number of decisions on days with one number of vertiports, side by side, as a network takes
-//! them. The memory grows with the number of rows and is kept.
+//! Observations of any number of decisions on days with one number of vertiports, side by side, as
+//! a network takes them. The memory grows with the number of rows and is kept.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::VertiportSet;
 
-use crate::nn::{AIRCRAFT_SHOWN, Architecture, FLEET_FEATURES, Inputs, Shape};
+use crate::nn::{Architecture, Inputs, Shape};
 
 /// Rows of features.
 #[derive(Debug, Clone)]
 pub(crate) struct Rows {
     shape: Shape,
-    beside: ExtraInputs,
+    has_edges: bool,
     nodes: Vec<f32>,
     aircraft: Vec<f32>,
     mask: Vec<u8>,
     edges: Vec<f32>,
-    fleet: Vec<f32>,
     clock: Vec<f32>,
-}
-
-/// What rows have beside the features of the vertiports and of the deciding aircraft.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ExtraInputs {
-    /// Weights of edges.
-    pub(crate) edges: bool,
-    /// Features of the other aircraft.
-    pub(crate) fleet: bool,
 }
 
 /// The parts of a row that is being written; all are zeros at first.
@@ -36,47 +26,36 @@ pub(crate) struct Row<'a> {
     pub(crate) aircraft: &'a mut [f32],
     /// Weights of edges [N x N], or none.
     pub(crate) edges: &'a mut [f32],
-    /// Features of the other aircraft [M x H], or none.
-    pub(crate) fleet: &'a mut [f32],
     /// Share of the day that is left.
     pub(crate) clock: &'a mut f32,
 }
 
-impl ExtraInputs {
-    /// What a policy's network reads.
-    pub(crate) fn of(policy: &Architecture) -> Self {
-        Self { edges: policy.adjacency().is_observed(), fleet: policy.has_aircraft_graph() }
-    }
-
-    /// Numbers of a row with so many vertiports: those of the edges, and those of the other aircraft.
-    pub(crate) fn widths(self, vertiports: usize) -> [usize; 2] {
-        let of = |is_there: bool, numbers: usize| if is_there { numbers } else { 0 };
-        [of(self.edges, vertiports * vertiports), of(self.fleet, AIRCRAFT_SHOWN * FLEET_FEATURES)]
-    }
+/// Whether the rows of a policy have weights of edges.
+pub(crate) fn has_edges(policy: &Architecture) -> bool {
+    policy.adjacency().is_observed()
 }
 
 impl Rows {
-    /// No rows yet, for features of this shape.
-    pub(crate) fn new(shape: Shape, beside: ExtraInputs) -> Self {
+    /// No rows yet, for features of this shape and perhaps weights of edges.
+    pub(crate) fn new(shape: Shape, has_edges: bool) -> Self {
         Self {
             shape,
-            beside,
+            has_edges,
             nodes: Vec::new(),
             aircraft: Vec::new(),
             mask: Vec::new(),
             edges: Vec::new(),
-            fleet: Vec::new(),
             clock: Vec::new(),
         }
     }
 
-    /// Rows with the features, edges and other aircraft of earlier [`inputs`](Self::inputs), and with their masks where the
-    /// features do not tell them.
+    /// Rows with the features and edges of earlier [`inputs`](Self::inputs), and
+    /// with their masks where the features do not tell them.
     pub(crate) fn of(
-        (shape, beside): (Shape, ExtraInputs),
+        shape: Shape,
         nodes: Vec<f32>,
         aircraft: Vec<f32>,
-        [edges, fleet]: [Vec<f32>; 2],
+        edges: Option<Vec<f32>>,
         masks: Option<&[f32]>,
     ) -> Self {
         let clock = vec![0.0; aircraft.len() / shape.aircraft_features];
@@ -85,7 +64,8 @@ impl Rows {
             Some(masks) => masks.iter().map(open).collect(),
             None => nodes.iter().step_by(shape.node_features).map(open).collect(),
         };
-        Self { shape, beside, nodes, aircraft, mask, edges, fleet, clock }
+        let has_edges = edges.is_some();
+        Self { shape, has_edges, nodes, aircraft, mask, edges: edges.unwrap_or_default(), clock }
     }
 
     pub(crate) fn shape(&self) -> Shape {
@@ -94,6 +74,11 @@ impl Rows {
 
     pub(crate) fn vertiports(&self) -> usize {
         self.shape.vertiports
+    }
+
+    /// The number of weights of edges in a row.
+    fn edges_a_row(&self) -> usize {
+        if self.has_edges { self.vertiports() * self.vertiports() } else { 0 }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -110,9 +95,7 @@ impl Rows {
         self.nodes.truncate(len * vertiports * node_features);
         self.aircraft.truncate(len * aircraft_features);
         self.mask.truncate(len * vertiports);
-        let [edges, fleet] = self.beside.widths(vertiports);
-        self.edges.truncate(len * edges);
-        self.fleet.truncate(len * fleet);
+        self.edges.truncate(len * self.edges_a_row());
         self.clock.truncate(len);
     }
 
@@ -124,7 +107,6 @@ impl Rows {
             aircraft: &self.aircraft,
             mask: &self.mask,
             edges: &self.edges,
-            fleet: &self.fleet,
             clock: &self.clock,
         }
     }
@@ -138,14 +120,12 @@ impl Rows {
         self.nodes.extend(part(&from.nodes, row, vertiports * node_features));
         self.aircraft.extend(part(&from.aircraft, row, aircraft_features));
         self.mask.extend(part(&from.mask, row, vertiports));
-        let [edges, fleet] = self.beside.widths(vertiports);
-        self.edges.extend(part(&from.edges, row, edges));
-        self.fleet.extend(part(&from.fleet, row, fleet));
+        self.edges.extend(part(&from.edges, row, self.edges_a_row()));
         self.clock.push(from.clock[row]);
     }
 
-    /// Adds a row, which `write` writes, of a decision between these vertiports. The features need not tell which they
-    /// are.
+    /// Adds a row, which `write` writes, of a decision between these vertiports. The features need
+    /// not tell which they are.
     pub(crate) fn push_between(&mut self, open: VertiportSet, write: impl FnOnce(&mut Row<'_>)) {
         self.push(write);
         let first = self.mask.len() - self.shape.vertiports;
@@ -157,20 +137,18 @@ impl Rows {
     /// Adds a row, which `write` writes.
     pub(crate) fn push(&mut self, write: impl FnOnce(&mut Row<'_>)) {
         let Shape { vertiports, node_features, aircraft_features } = self.shape;
-        let [edges, fleet] = self.beside.widths(vertiports);
-        let first = [&self.nodes, &self.aircraft, &self.edges, &self.fleet, &self.clock];
+        let edges = self.edges_a_row();
+        let first = [&self.nodes, &self.aircraft, &self.edges, &self.clock];
         let first = first.map(Vec::len);
         self.nodes.resize(first[0] + vertiports * node_features, 0.0);
         self.aircraft.resize(first[1] + aircraft_features, 0.0);
         self.edges.resize(first[2] + edges, 0.0);
-        self.fleet.resize(first[3] + fleet, 0.0);
         self.clock.push(0.0);
         write(&mut Row {
             nodes: &mut self.nodes[first[0]..],
             aircraft: &mut self.aircraft[first[1]..],
             edges: &mut self.edges[first[2]..],
-            fleet: &mut self.fleet[first[3]..],
-            clock: &mut self.clock[first[4]],
+            clock: &mut self.clock[first[3]],
         });
         let chosen = self.nodes[first[0]..].iter().step_by(node_features);
         self.mask.extend(chosen.map(|&chosen| u8::from(chosen == 1.0)));

@@ -1,11 +1,12 @@
 //! A training run: what it is asked to do, how it advances, and what it leaves.
 //!
-//! There are three ways to learn, [PPO](crate::ppo), for `gcaps` and `mlp`, [imitation](crate::imitation) and
-//! [evolution](crate::evolution). Callers see one interface: a [`TrainingRun`] is advanced until it is done, and can be set
-//! aside and resumed. A [`RunFolder`] does that and writes the files.
+//! There are three ways to learn, [PPO](crate::ppo), for `gcaps` and `mlp`,
+//! [imitation](crate::imitation) and [evolution](crate::evolution). Callers see one interface: a
+//! [`TrainingRun`] is advanced until it is done, and can be set aside and resumed. A [`RunFolder`]
+//! does that and writes the files.
 //!
-//! Training days, validation days and comparison days come from disjoint ranges of seeds (`DaySeed`), so no run can
-//! ever learn or choose on a day that it is later compared on.
+//! Training days, validation days and comparison days come from disjoint ranges of seeds
+//! (`DaySeed`), so no run can ever learn or choose on a day that it is later compared on.
 
 pub(crate) mod begin;
 pub(crate) mod checkpoint;
@@ -32,7 +33,8 @@ use crate::settings::TrainingSettings;
 /// What a training run is asked to do.
 #[derive(Debug, Clone)]
 pub struct TrainingRequest {
-    /// What the days that are learned from are drawn from; imitation also learns from days of random networks.
+    /// What the days that are learned from are drawn from; imitation also learns from days of
+    /// random networks.
     pub world: World,
     /// The kind of the policy, with its sizes.
     pub policy: Architecture,
@@ -46,8 +48,8 @@ pub struct TrainingRequest {
     pub commit: String,
 }
 
-/// A run in progress. It advances by one update of PPO, one round of imitation or one generation of evolution
-/// at a time.
+/// A run in progress. It advances by one update of PPO, one round of imitation or one generation of
+/// evolution at a time.
 pub trait TrainingRun: Send {
     /// Whether everything that was asked for has been learned.
     fn is_done(&self) -> bool;
@@ -55,19 +57,20 @@ pub trait TrainingRun: Send {
     /// How much of the work is done.
     fn work(&self) -> Work;
 
-    /// Learns one update, round or generation, and adds a row to the curve. `worked` is called with the number of units of work
-    /// done since its last call.
+    /// Learns one update, round or generation, and adds a row to the curve. `worked` is called with
+    /// the number of units of work done since its last call.
     ///
     /// # Errors
-    /// Returns [`Error::Stopped`] soon after `stop` is requested, [`Error::Diverged`] if a weight is infinite or NaN,
-    /// or an error if the training days run out. After a stop the run is as it was before the call.
+    /// Returns [`Error::Stopped`] soon after `stop` is requested, [`Error::Diverged`] if a weight
+    /// is infinite or NaN, or an error if the training days run out. After a stop the run is as it
+    /// was before the call.
     fn advance(&mut self, stop: &Stop, worked: &(dyn Fn(u64) + Sync)) -> Result<(), Error>;
 
     /// The learning curve so far.
     fn curve(&self) -> Curve;
 
-    /// The policy that would be kept now. With PPO and with evolution, it has the weights that did best on the
-    /// validation days so far.
+    /// The policy that would be kept now. With PPO and with evolution, it has the weights that did
+    /// best on the validation days so far.
     fn model(&self) -> Model;
 
     /// Writes a checkpoint, whole or not at all.
@@ -88,8 +91,8 @@ pub struct Work {
     pub units: &'static str,
 }
 
-/// The sizes of a run's policy of this kind: those of the weights that it begins with, or else the usual ones. `None` if
-/// there is no such kind.
+/// The sizes of a run's policy of this kind: those of the weights that it begins with, or else the
+/// usual ones. `None` if there is no such kind.
 pub fn sizes(kind: &str, begin_with: Option<&Model>) -> Option<Architecture> {
     let begun = begin_with.filter(|model| model.kind() == kind);
     begun.map_or_else(|| Architecture::named(kind), |model| Some(model.header().policy.clone()))
@@ -99,8 +102,8 @@ impl TrainingRequest {
     /// Starts a run.
     ///
     /// # Errors
-    /// Returns an error if settings and policy do not go together, if a setting is out of its bounds, if the policy's
-    /// sizes do not fit, or if the seed is out of range.
+    /// Returns an error if settings and policy do not go together, if a setting is out of its
+    /// bounds, if the policy's sizes do not fit, or if the seed is out of range.
     pub fn start(self) -> Result<Box<dyn TrainingRun>, Error> {
         self.begin(None)
     }
@@ -108,8 +111,8 @@ impl TrainingRequest {
     /// Resumes a run from a checkpoint, bit for bit as if it had never stopped.
     ///
     /// # Errors
-    /// The same as those of [`start`](Self::start), and an error if the checkpoint cannot be read, is damaged or
-    /// belongs to another run.
+    /// The same as those of [`start`](Self::start), and an error if the checkpoint cannot be read,
+    /// is damaged or belongs to another run.
     pub fn resume(self, checkpoint: &Path) -> Result<Box<dyn TrainingRun>, Error> {
         self.begin(Some(checkpoint))
     }
@@ -144,7 +147,8 @@ impl TrainingRequest {
         })
     }
 
-    /// Refuses weights to begin with that are of another policy, or that see other numbers than those of this run.
+    /// Refuses weights to begin with that are of another policy, or that see other numbers than
+    /// those of this run.
     fn check_begin(&self) -> Result<(), Error> {
         let Some(model) = &self.begin_with else { return Ok(()) };
         let bad = |rule: &str| {
@@ -196,7 +200,8 @@ pub(crate) struct RunIdentity {
     pub(crate) begun_with: Option<String>,
 }
 
-/// A number that changes when the network's days do: a checksum of one of them and of the feature scales.
+/// A number that changes when the network's days do: a checksum of one of them and of the feature
+/// scales.
 fn network_fingerprint(world: &World) -> Result<u32, Error> {
     let network = world.network(Purpose::Validation, 0);
     let day = network.draw(DaySeed::validation(0)?);
@@ -204,7 +209,8 @@ fn network_fingerprint(world: &World) -> Result<u32, Error> {
     Ok(crc32c::crc32c_append(crc32c::crc32c(day.to_json().as_bytes()), scales.as_bytes()))
 }
 
-/// Refuses weights that are infinite or NaN after an update, a round or a generation, which is counted from 1.
+/// Refuses weights that are infinite or NaN after an update, a round or a generation, which is
+/// counted from 1.
 pub(crate) fn check_finite(params: &[f32], update: u64) -> Result<(), Error> {
     if params.iter().all(|weight| weight.is_finite()) {
         return Ok(());

@@ -10,8 +10,8 @@ use crate::imitation::ImitationSettings;
 use crate::nn::Architecture;
 use crate::ppo::PpoSettings;
 
-/// The settings of a training run: those of PPO, which `gcaps` and `mlp` can learn by, or those of imitation or of
-/// evolution, which every policy can learn by.
+/// The settings of a training run: those of PPO, which `gcaps` and `mlp` can learn by, or those of
+/// imitation or of evolution, which every policy can learn by.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum TrainingSettings {
@@ -24,8 +24,8 @@ pub enum TrainingSettings {
 }
 
 impl TrainingSettings {
-    /// The policy's preset with this name: `default` or `evolution`; or, for `gcaps` and `mlp`, `paper` (Table 2) or
-    /// `imitation`.
+    /// The policy's preset with this name: `default` or `evolution`; or, for `gcaps` and `mlp`,
+    /// `paper` (Table 2) or `imitation`.
     ///
     /// # Errors
     /// Returns an error if there is no such preset.
@@ -60,7 +60,8 @@ impl TrainingSettings {
     /// Changes settings by name, as `--set name=value` does. If one does not fit, none is changed.
     ///
     /// # Errors
-    /// Returns an error if there is no such setting, or if a value does not fit it or the other settings.
+    /// Returns an error if there is no such setting, or if a value does not fit it or the other
+    /// settings.
     pub fn set<'a>(
         &mut self,
         pairs: impl IntoIterator<Item = (&'a str, &'a str)>,
@@ -102,11 +103,12 @@ impl TrainingSettings {
     }
 }
 
-/// Changes the sizes of a policy and the settings of its training by name, as `--set name=value` does. If one does not
-/// fit, none is changed.
+/// Changes the sizes of a policy and the settings of its training by name, as `--set name=value`
+/// does. If one does not fit, none is changed.
 ///
 /// # Errors
-/// Returns an error if there is no such setting, or if a value does not fit it or the other settings.
+/// Returns an error if there is no such setting, or if a value does not fit it or the other
+/// settings.
 pub fn set<'a>(
     policy: &mut Architecture,
     settings: &mut TrainingSettings,
@@ -130,9 +132,7 @@ fn set_size(policy: &mut Architecture, name: &str, value: &str) -> Result<bool, 
         Architecture::Gcaps(sizes)
         | Architecture::GcapsX(sizes)
         | Architecture::GcapsFull(sizes) => {
-            let mut of_graph = members(&sizes.graph);
-            // Files leave it out where it is false.
-            of_graph.entry("aircraft_graph").or_insert(false.into());
+            let of_graph = members(&sizes.graph);
             if has(&of_graph) {
                 sizes.graph = changed(of_graph, name, value)?;
             } else if name != "graph" && has(&members(sizes)) {
@@ -233,19 +233,9 @@ mod tests {
         let Architecture::GcapsFull(sizes) = &policy else { panic!("{policy:?}") };
         assert_eq!((sizes.width, sizes.graph.hops), (32, 1));
         assert_eq!(sizes.graph.adjacency, Adjacency::Profit);
-        for is_there in [true, false] {
-            set(&mut policy, &mut settings, [("aircraft_graph", is_there.to_string().as_str())])
-                .expect("a size");
-            assert_eq!(policy.has_aircraft_graph(), is_there);
-        }
         let before = (policy.clone(), settings.clone());
-        for (name, value) in [
-            ("adjacency", "near"),
-            ("aircraft_graph", "1"),
-            ("width", "-1"),
-            ("graph", "1"),
-            ("wide", "1"),
-        ] {
+        for (name, value) in [("adjacency", "near"), ("width", "-1"), ("graph", "1"), ("wide", "1")]
+        {
             set(&mut policy, &mut settings, [("hops", "0"), (name, value)]).expect_err(name);
         }
         assert_eq!((policy, settings), before);

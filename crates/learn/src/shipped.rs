@@ -52,7 +52,8 @@ const FILES: [Files; 4] = [
     },
 ];
 
-/// The shipped policy with this name for a network; `gcaps-x` and `gcaps-full` are shipped for all networks.
+/// The shipped policy with this name for a network; `gcaps-x` and `gcaps-full` are shipped for all
+/// networks.
 ///
 /// # Errors
 /// Returns [`Error::NotShipped`] if there is none.

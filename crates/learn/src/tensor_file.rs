@@ -1,4 +1,5 @@
-//! The common format of weight files and checkpoints: safetensors with one JSON header and tensors of 32-bit numbers.
+//! The common format of weight files and checkpoints: safetensors with one JSON header and tensors
+//! of 32-bit numbers.
 
 use std::collections::HashMap;
 

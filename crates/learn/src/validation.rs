@@ -29,7 +29,8 @@ pub(crate) struct Validated {
 }
 
 impl ValidationDays {
-    /// So many days of a world, and as many of random networks and [`random_city`], by turns, where `of_any_size` is set.
+    /// So many days of a world, and as many of random networks and [`random_city`], by turns, where
+    /// `of_any_size` is set.
     pub(crate) fn of(world: &World, count: u32, of_any_size: bool) -> Result<Self, Error> {
         let random = if of_any_size { count } else { 0 };
         let of_world = |day| world.network(Purpose::Validation, day);

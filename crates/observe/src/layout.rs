@@ -54,8 +54,8 @@ impl Layout {
         &self.parts
     }
 
-    /// Writes a decision into a row. Entries without a meaning on this day, such as padding, are 0. `observer` belongs to
-    /// the day.
+    /// Writes a decision into a row. Entries without a meaning on this day, such as padding, are 0.
+    /// `observer` belongs to the day.
     ///
     /// # Panics
     /// If the row has another width, or the day is larger than the layout's sizes.
@@ -74,7 +74,8 @@ impl Layout {
     }
 }
 
-/// Writes a part in its unit instead of divided by its scale, into an array of the sizes of its day.
+/// Writes a part in its unit instead of divided by its scale, into an array of the sizes of its
+/// day.
 ///
 /// # Panics
 /// If the array has another length, or if views do not have the part.

@@ -1,8 +1,9 @@
 //! What may be seen of a decision, as arrays.
 //!
-//! An observation is made of [parts](Part), each with a name, a shape, a unit and a scale. A [`Layout`] lays the parts
-//! that were asked for side by side in one row of numbers, which is filled without allocating memory. Everything in a
-//! row comes from a [`View`](vertifleet_sim::View), so it shows what is known at the decision and nothing else.
+//! An observation is made of [parts](Part), each with a name, a shape, a unit and a scale. A
+//! [`Layout`] lays the parts that were asked for side by side in one row of numbers, which is
+//! filled without allocating memory. Everything in a row comes from a
+//! [`View`](vertifleet_sim::View), so it shows what is known at the decision and nothing else.
 //!
 //! This crate builds on `vertifleet-learn`, whose policies see some of these parts.
 //!

@@ -3,9 +3,9 @@
 use vertifleet_core::{FeatureScales, Network};
 use vertifleet_learn::{FullObserver, PricedObserver, Scales};
 
-/// The scales of a day's network, which divide the paper's parts, the memory of its bid prices, which parts that show
-/// prices need, and that of its unit of money, which parts of the full observation need. Days that are played side by
-/// side should have an observer each.
+/// The scales of a day's network, which divide the paper's parts, the memory of its bid prices,
+/// which parts that show prices need, and that of its unit of money, which parts of the full
+/// observation need. Days that are played side by side should have an observer each.
 #[derive(Debug, Clone)]
 pub struct Observer {
     pub(crate) scales: Scales,

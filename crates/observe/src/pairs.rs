@@ -1,4 +1,5 @@
-//! Tables with a row for each vertiport that flights come from, and a column for each that they go to.
+//! Tables with a row for each vertiport that flights come from, and a column for each that they go
+//! to.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::VertiportSet;

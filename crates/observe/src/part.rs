@@ -1,5 +1,5 @@
-//! The parts that an observation is made of. The table of `docs/src/reference/observations.md` is held to this one by a
-//! test.
+//! The parts that an observation is made of. The table of `docs/src/reference/observations.md` is
+//! held to this one by a test.
 
 use crate::Sizes;
 
@@ -72,7 +72,6 @@ pub enum Part {
     FullAircraft,
     DistanceEdges,
     ProfitEdges,
-    FullFleet,
 }
 
 /// What a part is.
@@ -129,7 +128,7 @@ const FLEET: &[Axis] = &[Axis::Aircraft];
 
 /// All parts, in the order of [`Part`].
 #[rustfmt::skip]
-const INFOS: [Info; 47] = [
+const INFOS: [Info; 46] = [
     info(Part::ActionMask, ("action_mask", Some("action_mask")), V, NONE, SHARE,
         "1 for each feasible choice; the deciding aircraft's own vertiport is hold"),
     info(Part::VertiportMask, ("vertiport_mask", None), V, NONE, SHARE,
@@ -222,8 +221,6 @@ const INFOS: [Info; 47] = [
         "1 / (1 + hours of flight), for the deciding aircraft's type; 0 out of range"),
     info(Part::ProfitEdges, ("profit_edges", None), PAIR, NONE, (0.0, 3.0),
         "profit per hour of a flight that begins now, in typical full flights, at most 3; 0 where it costs, or cannot be flown now"),
-    info(Part::FullFleet, ("full_fleet", None), &[Axis::Of(40), Axis::Of(16)], NONE, ANY,
-        "the other aircraft that are ready first, as a graph of aircraft of gcaps-full sees them; zeros where there are no more"),
 ];
 
 impl Part {
@@ -266,11 +263,7 @@ impl Part {
     pub fn is_of_the_full(self) -> bool {
         matches!(
             self,
-            Self::FullNodes
-                | Self::FullAircraft
-                | Self::DistanceEdges
-                | Self::ProfitEdges
-                | Self::FullFleet
+            Self::FullNodes | Self::FullAircraft | Self::DistanceEdges | Self::ProfitEdges
         )
     }
 
@@ -281,7 +274,8 @@ impl Part {
         of_the_paper || self.is_priced() || self.is_of_the_full()
     }
 
-    /// Whether the part's array has the shape of one network, and cannot be padded to that of a larger one.
+    /// Whether the part's array has the shape of one network, and cannot be padded to that of a
+    /// larger one.
     pub fn is_of_one_size(self) -> bool {
         matches!(self, Self::Nodes | Self::Aircraft)
     }
@@ -296,7 +290,6 @@ impl Part {
                     | Self::ClosedAhead
                     | Self::EnergyPrice
                     | Self::FullNodes
-                    | Self::FullFleet
             )
     }
 }

@@ -20,15 +20,16 @@ impl<'a> Scene<'a> {
         Self { view, decision, feasible: view.feasible(decision), over: false }
     }
 
-    /// The day as it is seen by an aircraft that does not decide now, from where it stands or will land: only hold is
-    /// feasible.
+    /// The day as it is seen by an aircraft that does not decide now, from where it stands or will
+    /// land: only hold is feasible.
     pub fn waiting(view: View<'a>, decision: &'a Decision) -> Self {
         let mut feasible = VertiportSet::EMPTY;
         feasible.insert(decision.at);
         Self { view, decision, feasible, over: false }
     }
 
-    /// A day that is over, as it is seen by the aircraft that decided last: only hold is feasible, and no time is left.
+    /// A day that is over, as it is seen by the aircraft that decided last: only hold is feasible,
+    /// and no time is left.
     pub fn over(view: View<'a>, decision: &'a Decision) -> Self {
         Self { over: true, ..Self::waiting(view, decision) }
     }

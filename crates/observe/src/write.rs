@@ -1,7 +1,7 @@
 //! Writes each part from what is seen of the day.
 
 use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
-use vertifleet_learn::nn::{AIRCRAFT_SHOWN, Adjacency, FLEET_FEATURES};
+use vertifleet_learn::nn::Adjacency;
 use vertifleet_learn::{FullObservation, FullObserver, PricedObservation, PricedObserver, Scales};
 use vertifleet_sim::Leg;
 
@@ -21,7 +21,8 @@ pub(crate) struct Writer<'a> {
     pub(crate) scales: &'a Scales,
     /// The decision at the day's bid prices, if a part needs them and the day is not over.
     pub(crate) priced: Option<PricedObservation<'a>>,
-    /// The decision as policies of the full observation see it, if a part needs that and the day is not over.
+    /// The decision as policies of the full observation see it, if a part needs that and the day is
+    /// not over.
     pub(crate) full: Option<FullObservation<'a>>,
     /// Whether numbers stay in their units, instead of being divided by their scales.
     pub(crate) natural: bool,
@@ -86,11 +87,6 @@ impl Writer<'_> {
             Part::FullAircraft => copied(to, self.full.map(|full| full.aircraft)),
             Part::DistanceEdges => self.edges(to, Adjacency::Distance),
             Part::ProfitEdges => self.edges(to, Adjacency::Profit),
-            Part::FullFleet => {
-                if let Some(full) = self.full {
-                    full.write_fleet(to);
-                }
-            }
         }
     }
 
@@ -245,4 +241,3 @@ fn scaled(to: &mut [f32], from: &[f64], factor: f64) {
 const _: () =
     assert!(PricedObserver::NODE_FEATURES == 24 && PricedObserver::AIRCRAFT_FEATURES == 10);
 const _: () = assert!(FullObserver::NODE_FEATURES == 37 && FullObserver::AIRCRAFT_FEATURES == 11);
-const _: () = assert!(AIRCRAFT_SHOWN == 40 && FLEET_FEATURES == 16);

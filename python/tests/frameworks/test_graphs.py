@@ -13,7 +13,7 @@ torch = pytest.importorskip("torch")
 
 from vertifleet.envs import FleetEnv, FleetVectorEnv  # noqa: E402
 from vertifleet.torch import Gcaps, GcapsFull, GcapsX, Graph, MlpFull, act, load, masked, save, scores  # noqa: E402
-from vertifleet.torch.twin import FLEET_SHAPE, of_sizes  # noqa: E402
+from vertifleet.torch.twin import of_sizes  # noqa: E402
 
 REFERENCE = Path(__file__).parents[3] / "crates" / "learn" / "tests" / "reference"
 CASES = json.loads((REFERENCE / "graphs.json").read_text(encoding="utf-8"))
@@ -61,8 +61,7 @@ def test_outputs_and_gradients_are_those_that_the_program_is_held_to(case):
     edges = noise("edges", batch, count, count).clamp(min=0)
     edges[:, 0] = 0
     nodes, aircraft = noise("nodes", batch, count, 37), noise("aircraft", batch, 11)
-    fleet = noise("fleet", batch, *FLEET_SHAPE) if twin.fleet else None
-    logits, values = twin(nodes, aircraft, noise("clock", batch), edges if twin.edges else None, fleet)
+    logits, values = twin(nodes, aircraft, noise("clock", batch), edges if twin.edges else None)
     expected = torch.tensor([np.nan if one is None else one for one in case["logits"]], dtype=torch.float64)
     mask = ~expected.isnan().view(batch, count)
     close = {"rtol": 1e-6, "atol": 1e-7}
@@ -100,7 +99,6 @@ def test_weights_of_any_graph_go_to_the_program_and_come_back(graph, tmp_path):
         mask, clock = np.ones((6, count)), random.random(6, np.float32)
         weights = random.random((6, count, count), np.float32) * (random.random((6, count, count)) < 0.5)
         beside = {"edges": weights.astype(np.float32)} if twin.edges else {}
-        beside |= {"fleet": random.random((6, *FLEET_SHAPE), np.float32)} if twin.fleet else {}
         expected = model.forward(nodes, aircraft, mask, clock, **beside)
         with torch.inference_mode():
             inputs = (torch.from_numpy(array) for array in (nodes, aircraft, clock))
@@ -111,9 +109,7 @@ def test_weights_of_any_graph_go_to_the_program_and_come_back(graph, tmp_path):
 
 
 @pytest.mark.parametrize("make", [GcapsX, lambda **of: Gcaps(8, **of)], ids=["gcaps-x", "gcaps"])
-@pytest.mark.parametrize(
-    "graph", [graph for graph in GRAPHS if not Graph(**graph).edges and "aircraft_graph" not in graph]
-)
+@pytest.mark.parametrize("graph", [graph for graph in GRAPHS if not Graph(**graph).edges])
 def test_graphs_that_need_nothing_else_are_of_all_networks(make, graph, tmp_path):
     twin = drawn(make(width=16, heads=2, graph=graph))
     model = saved(twin, tmp_path / "x.safetensors")
@@ -147,8 +143,6 @@ def assert_a_day_is_decided_as_by_the_program(twin, model, network, day):
         ({"adjacency": "reachable", "layers": 2}, "disrupted"),
         ({"adjacency": "similarity", "hops": 1, "moments": 1}, "random:5"),
         ({"encoder": "transformer"}, "new-york"),
-        ({"aircraft_graph": True}, "paper"),
-        ({"aircraft_graph": True, "adjacency": "profit"}, "random:5"),
     ],
 )
 def test_a_day_is_decided_as_by_the_program(graph, name, tmp_path):
@@ -168,11 +162,11 @@ def test_plain_layers_decide_a_day_as_the_program_does(tmp_path):
     assert_a_day_is_decided_as_by_the_program(twin, model, network, network.draw(3))
 
 
-@pytest.mark.parametrize("graph", [{}, {"adjacency": "profit"}, {"aircraft_graph": True}])
+@pytest.mark.parametrize("graph", [{}, {"adjacency": "profit"}])
 def test_padding_is_not_seen(graph):
     twin = drawn(GcapsFull(width=16, heads=2, graph=graph))
     edges = [twin.edges] if twin.edges else []
-    envs = FleetVectorEnv(6, "random", observation=[*FULL, *edges, *([twin.fleet] if twin.fleet else [])])
+    envs = FleetVectorEnv(6, "random", observation=[*FULL, *edges])
     observation, _ = envs.reset(seed=4)
     for _ in range(40):
         choices = act(twin, observation)
@@ -189,8 +183,7 @@ def test_padding_is_not_seen(graph):
     assert torch.equal(found > -torch.inf, batch["action_mask"] == 1)
     assert torch.equal(found.argmax(-1), torch.as_tensor(act(twin, observation)))
     (-found.log_softmax(-1).amax(-1).sum()).backward()
-    readers = [twin.encoder, *([twin.fleet_encoder] if twin.fleet else [])]
-    assert all(bool(weight.grad.isfinite().all()) for reader in readers for weight in reader.parameters())
+    assert all(bool(weight.grad.isfinite().all()) for weight in twin.encoder.parameters())
 
 
 def refused(call, *arguments, **named):
@@ -210,7 +203,6 @@ def refused(call, *arguments, **named):
         ({"encoder": "rnn"}, "encoder"),
         ({"laplacian": None}, "laplacian"),
         ({"attention": 1}, "attention"),
-        ({"aircraft_graph": "yes"}, "aircraft_graph"),
         ({"colour": "blue"}, "colour"),
         ("profit", "graph"),
     ],
@@ -241,26 +233,6 @@ def test_edges_are_given_where_they_are_read_and_only_there(tmp_path):
         assert "shows no flights" in refused(make, graph={"adjacency": "reachable"})
 
 
-def test_other_aircraft_are_given_where_they_are_read_and_only_there(tmp_path):
-    reads, knows = (
-        GcapsFull(width=8, heads=2, graph=Graph(aircraft_graph=True)),
-        GcapsFull(width=8, heads=2),
-    )
-    nodes, aircraft, clock = torch.rand(2, 5, 37), torch.rand(2, 11), torch.rand(2)
-    fleet = torch.rand(2, *FLEET_SHAPE)
-    assert "full_fleet" in refused(reads, nodes, aircraft, clock)
-    assert "no other aircraft" in refused(knows, nodes, aircraft, clock, fleet=fleet)
-    assert "[2, 40, 16]" in refused(reads, nodes, aircraft, clock, fleet=fleet[:, :9])
-    assert "no other aircraft" in refused(MlpFull(5), nodes, aircraft, clock, fleet=fleet)
-    flat = reads(nodes, aircraft, clock, fleet=fleet.flatten(1))
-    torch.testing.assert_close(flat, reads(nodes, aircraft, clock, fleet=fleet))
-    for twin, given in ((reads, None), (knows, fleet)):
-        model = saved(twin, tmp_path / f"{given is None}.safetensors")
-        assert "fleet" in refused(model.forward, nodes, aircraft, np.ones((2, 5)), clock, fleet=given)
-    for make in (lambda **of: Gcaps(8, **of), GcapsX):
-        assert "one by one" in refused(make, graph={"aircraft_graph": True})
-
-
 def test_weights_of_any_size_may_come_from_networks_that_are_drawn(tmp_path):
     path = tmp_path / "full.safetensors"
     for world in ("random", "random-places:8"):
@@ -283,7 +255,6 @@ def test_a_gpu_computes_the_same(graph):
     twin = drawn(GcapsFull(width=8, heads=2, graph=graph)).double()
     inputs = [torch.rand(*shape, dtype=torch.float64) for shape in ((3, 5, 37), (3, 11), (3,))]
     inputs += [torch.rand(3, 5, 5, dtype=torch.float64) if twin.edges else None]
-    inputs += [torch.rand(3, *FLEET_SHAPE, dtype=torch.float64) if twin.fleet else None]
     expected = [answer.detach() for answer in twin(*inputs)]
     found = twin.cuda()(*(None if part is None else part.cuda() for part in inputs))
     torch.testing.assert_close([answer.detach().cpu() for answer in found], expected)

@@ -25,12 +25,11 @@ ROUND |= {"validation_days": 1, "random_share": 0.5, "width": 8, "heads": 2}
 
 @pytest.fixture(scope="module")
 def checkpoints(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
-    """The checkpoints of small runs, by their adjacency, and one with a graph of the aircraft."""
+    """The checkpoints of small runs, by their adjacency."""
     folders = {}
-    graphs: dict[str, dict[str, object]] = {name: {"adjacency": name} for name in ("complete", "profit")}
-    for name, graph in (graphs | {"aircraft": {"aircraft_graph": True}}).items():
+    for name in ("complete", "profit"):
         out = tmp_path_factory.mktemp(name)
-        vertifleet.train("paper", "gcaps-full", out=out, settings=ROUND | graph, threads=1)
+        vertifleet.train("paper", "gcaps-full", out=out, settings=ROUND | {"adjacency": name}, threads=1)
         folders[name] = out / "gcaps-full-checkpoint.safetensors"
     return folders
 
@@ -114,17 +113,6 @@ def test_edges_are_learned_from_where_the_samples_have_them(
         calls(other)
     with pytest.raises(vertifleet.Error, match="hops"):
         calls(checkpoints["profit"], "--set", "hops=9")
-
-
-def test_the_other_aircraft_are_learned_from_where_the_samples_have_them(
-    checkpoints: dict[str, Path], calls: Calls, tmp_path: Path
-) -> None:
-    graph = ["--set", "aircraft_graph=true"]
-    assert len(calls(checkpoints["aircraft"], "--out", "seen.safetensors", *graph)) == 5
-    assert load(tmp_path / "seen.safetensors").fleet == "full_fleet"
-    with pytest.raises(SystemExit, match="do not show the other aircraft"):
-        calls(checkpoints["complete"], *graph)
-    assert len(calls(checkpoints["aircraft"])) == 5
 
 
 def test_the_program_decides_with_the_weights_of_a_call(checkpoints: dict[str, Path], tmp_path: Path) -> None:

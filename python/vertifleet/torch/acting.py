@@ -80,7 +80,7 @@ def scores(twin: Twin, observation: Mapping[str, Tensor]) -> Tensor:
 
 def _cut(name: str, entries: Tensor, count: int) -> Tensor:
     """The entries of the first vertiports, which a day has; of pairs of them, if they are of edges."""
-    if name.endswith(("aircraft", "fleet")) or name == "clock":
+    if name.endswith("aircraft") or name == "clock":
         return entries
     return entries[:, :count, :count] if name in OBSERVED.values() else entries[:, :count]
 
@@ -89,9 +89,7 @@ def _scores(twin: Twin, observation: Mapping[str, Tensor]) -> Tensor:
     """The scores of observations without padding."""
     nodes, aircraft = (observation[twin.features + part] for part in ("nodes", "aircraft"))
     clock = observation["clock"] if "clock" in twin.reads else nodes.new_zeros(len(nodes))
-    beside = {"edges": twin.edges, "fleet": twin.fleet}
-    shown = {name: observation[part] for name, part in beside.items() if part is not None}
-    logits, _ = twin(nodes, aircraft, clock, **shown)
+    logits, _ = twin(nodes, aircraft, clock, None if twin.edges is None else observation[twin.edges])
     if WORTH in twin.reads:
         _check(WORTH, observation[WORTH], logits.shape)
         return masked(logits + observation[WORTH], nodes[..., 0])

@@ -1,4 +1,4 @@
-"""The encoders beside the paper's: graph capsules on any graph, self-attention, and that of the aircraft.
+"""The encoders beside the paper's: graph capsules on any graph, and self-attention.
 
 Self-attention knows no graph. They have the tensors of the program's `capsule_layers.rs`,
 `self_attention.rs` and `fleet.rs`.
@@ -6,7 +6,6 @@ Self-attention knows no graph. They have the tensors of the program's `capsule_l
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, cast
 
 import torch
@@ -92,25 +91,6 @@ class CapsuleEncoder(CapsuleLayer):
             return similarities(nodes)
         batch, count, _ = nodes.shape
         return nodes.new_ones(batch, count, count)
-
-
-class FleetEncoder(CapsuleLayer):
-    """The graph of the other aircraft: one layer of capsules with one hop, on the complete graph.
-
-    The mean of the capsules is read. What it returns is added to the decoder's query.
-    """
-
-    def __init__(self, features: int, width: int, graph: Graph) -> None:
-        super().__init__(width, replace(graph, hops=1), is_first=True)
-        self.node = Linear(features, width)
-        self.join = Matrix(graph.moments * width, width)
-
-    def forward(self, fleet: Tensor) -> Tensor:
-        """[B, M, H] -> [B, h]."""
-        batch, count, _ = fleet.shape
-        laplacians = laplacian(fleet.new_ones(batch, count, count), "plain")
-        added: Tensor = self.join(self.capsules(self.node(fleet), laplacians).mean(dim=1))
-        return added
 
 
 class AttentionEncoder(nn.Module):

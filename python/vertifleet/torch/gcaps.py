@@ -14,10 +14,10 @@ from torch import Tensor, nn
 from torch.nn.functional import relu
 
 from vertifleet import Error
-from vertifleet.torch.encoders import AttentionEncoder, CapsuleEncoder, FleetEncoder
+from vertifleet.torch.encoders import AttentionEncoder, CapsuleEncoder
 from vertifleet.torch.graph import graph_of
 from vertifleet.torch.layers import BEFORE_RELU, LOGITS, LayerNorm, Linear, Matrix, ValueHead
-from vertifleet.torch.twin import FLEET_SHAPE, FULL_FEATURES, Beside, Twin, check_size, paper_features
+from vertifleet.torch.twin import FULL_FEATURES, Twin, check_size, paper_features
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -38,7 +38,7 @@ class Gcaps(Twin):
 
     kind = "gcaps"
     sees_the_full: ClassVar[bool] = False
-    """Whether the policy's observation may show the weights of edges and the other aircraft."""
+    """Whether the policy's observation may show the weights of edges."""
 
     def __init__(
         self,
@@ -62,12 +62,7 @@ class Gcaps(Twin):
             raise Error(
                 "V451", f"the observation of {self.kind} shows no flights between two other vertiports"
             )
-        if self.graph.aircraft_graph and not self.sees_the_full:
-            raise Error("V451", f"the observation of {self.kind} shows no other aircraft one by one")
         self.encoder = encoder_of(self.node_features, width, heads, self.graph)
-        if self.graph.aircraft_graph:
-            self.fleet_encoder = FleetEncoder(FLEET_SHAPE[1], width, self.graph)
-            self.fleet = f"{self.features}fleet"
         self.decoder = Decoder(self.aircraft_features, width, heads, attention=self.graph.attention)
         self.value = ValueHead(width, width, means_width=width)
 
@@ -78,11 +73,10 @@ class Gcaps(Twin):
         return sizes if self.graph.is_of_the_paper else sizes | {"graph": self.graph.members}
 
     def _answers(
-        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, beside: Beside
+        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, edges: Tensor | None
     ) -> tuple[Tensor, Tensor]:
-        embeddings = self.encoder(nodes, beside.edges)
-        added = None if beside.fleet is None else self.fleet_encoder(beside.fleet)
-        logits, y = self.decoder(embeddings, aircraft, added)
+        embeddings = self.encoder(nodes, edges)
+        logits, y = self.decoder(embeddings, aircraft)
         return logits, self.value(y, clock, embeddings.mean(dim=1))
 
 
@@ -111,8 +105,7 @@ class GcapsX(Gcaps):
 class GcapsFull(Gcaps):
     """The layers of :class:`Gcaps` on the observation "gcaps-full", which needs no bid prices.
 
-    Its weights fit any number of vertiports, and it is the only network that sees the weights of edges and
-    the other aircraft.
+    Its weights fit any number of vertiports, and it is the only network that sees the weights of edges.
     """
 
     kind = "gcaps-full"
@@ -183,7 +176,7 @@ class Decoder(nn.Module):
 
     ::
 
-        q = ψ W_Q + b_Q   (+ what the graph of the other aircraft adds, if there is one)
+        q = ψ W_Q + b_Q
         z = LayerNorm(q + MHA(q, E))
         y = LayerNorm(z + ReLU(z W_1 + b_1))
         logit_i = (y W_L) · E_i / sqrt(h)
@@ -203,14 +196,9 @@ class Decoder(nn.Module):
         self.norm_2 = LayerNorm(width)
         self.pointer = Matrix(width, width, LOGITS)
 
-    def forward(self, embeddings: Tensor, aircraft: Tensor, added: Tensor | None) -> tuple[Tensor, Tensor]:
-        """Logits [B, N] and y [B, h] from embeddings [B, N, h] and the aircraft's features [B, G].
-
-        What the other aircraft add to the query is [B, h].
-        """
+    def forward(self, embeddings: Tensor, aircraft: Tensor) -> tuple[Tensor, Tensor]:
+        """Logits [B, N] and y [B, h] from embeddings [B, N, h] and the aircraft's features [B, G]."""
         q = self.query(aircraft)
-        if added is not None:
-            q = q + added
         z = self.norm_1(q + self.attend(q, embeddings))
         y = self.norm_2(z + relu(self.feed_forward(z)))
         pointer = self.pointer(y) / math.sqrt(y.shape[-1])

@@ -24,10 +24,7 @@ OBSERVED = {"distance": "distance_edges", "reachable": "adjacency", "profit": "p
 
 @dataclass(frozen=True)
 class Graph:
-    """What a network has between the vertiports, and between the aircraft.
-
-    By default it is the paper's (Table 3), on the complete graph of the vertiports, without one of the
-    aircraft.
+    """What a network has between the vertiports; by default the paper's complete graph (Table 3).
 
     Attributes:
         encoder: "capsules" (Eq. 18 and 19), or "transformer", self-attention of all vertiports, which knows
@@ -40,8 +37,6 @@ class Graph:
             now; "profit", the profit per hour of a flight now. The last three are seen by `GcapsFull` alone.
         laplacian: "plain", (D - A) / N, or "normalised", I - D^-1 A.
         attention: whether the decoder attends to the vertiports (Eq. 20), or reads their mean.
-        aircraft_graph: whether the decoder's query also reads a graph of the other aircraft; seen by
-            `GcapsFull` alone.
     """
 
     encoder: EncoderKind = "capsules"
@@ -51,7 +46,6 @@ class Graph:
     adjacency: Adjacency = "complete"
     laplacian: LaplacianKind = "plain"
     attention: bool = True
-    aircraft_graph: bool = False
 
     def __post_init__(self) -> None:
         sizes = {
@@ -67,11 +61,9 @@ class Graph:
             if found not in get_args(known):
                 listed = ", ".join(f'"{one}"' for one in get_args(known))
                 raise Error("V451", f"{name} must be one of {listed}, found {found!r}")
-        for name in ("attention", "aircraft_graph"):
-            found = getattr(self, name)
-            if not isinstance(found, (bool, np.bool_)):
-                raise Error("V451", f"{name} must be True or False, found {found!r}")
-            object.__setattr__(self, name, bool(found))
+        if not isinstance(self.attention, (bool, np.bool_)):
+            raise Error("V451", f"attention must be True or False, found {self.attention!r}")
+        object.__setattr__(self, "attention", bool(self.attention))
 
     @property
     def is_of_the_paper(self) -> bool:
@@ -81,7 +73,7 @@ class Graph:
     @property
     def uses_paper_encoder(self) -> bool:
         """Whether the encoder is the paper's, whatever the decoder is."""
-        return replace(self, attention=True, aircraft_graph=False).is_of_the_paper
+        return replace(self, attention=True).is_of_the_paper
 
     @property
     def edges(self) -> str | None:
@@ -90,14 +82,8 @@ class Graph:
 
     @property
     def members(self) -> dict[str, Any]:
-        """The settings by their names, as they stand in the header of a weight file.
-
-        It leaves `aircraft_graph` out where that is false, as files from before it do.
-        """
-        members = asdict(self)
-        if not self.aircraft_graph:
-            del members["aircraft_graph"]
-        return members
+        """The settings by their names, as they stand in the header of a weight file."""
+        return asdict(self)
 
 
 def graph_of(given: Graph | Mapping[str, Any] | None) -> Graph:

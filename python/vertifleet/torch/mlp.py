@@ -10,7 +10,7 @@ from torch import Tensor, nn
 from torch.nn.functional import relu
 
 from vertifleet.torch.layers import BEFORE_RELU, LOGITS, Linear, ValueHead
-from vertifleet.torch.twin import FULL_FEATURES, Beside, Twin, check_size, paper_features
+from vertifleet.torch.twin import FULL_FEATURES, Twin, check_size, paper_features
 
 MOST_LAYERS = 16
 
@@ -55,7 +55,7 @@ class Mlp(Twin):
         nodes: Tensor,
         aircraft: Tensor,
         clock: Tensor,
-        beside: Beside,  # noqa: ARG002 - it reads nothing else
+        edges: Tensor | None,  # noqa: ARG002 - it has no graph
     ) -> tuple[Tensor, Tensor]:
         x = torch.cat([nodes.flatten(start_dim=1), aircraft], dim=-1)
         for layer in self.trunk.values():

@@ -6,7 +6,7 @@ import math
 import operator
 from abc import ABC, abstractmethod
 from inspect import signature
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from torch import Tensor, nn
 
@@ -15,19 +15,8 @@ from vertifleet import Error
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-BESIDE = {"edges": "edges", "fleet": "other aircraft"}
-"""What only some networks read, by the name of the argument."""
 MOST = 4096
 """Larger sizes can only come from a damaged file, and could ask for more memory than there is."""
-
-
-class Beside(NamedTuple):
-    """What a network may read beside the features of vertiports and of the deciding aircraft."""
-
-    edges: Tensor | None
-    """Weights of the edges between vertiports, [B, N, N]."""
-    fleet: Tensor | None
-    """Features of the other aircraft, [B, M, H]."""
 
 
 class Twin(nn.Module, ABC):
@@ -48,8 +37,6 @@ class Twin(nn.Module, ABC):
     """What the names of the features that it reads begin with, in observations."""
     edges: str | None = None
     """The part of an observation that shows the weights of the edges; None if the network reads none."""
-    fleet: str | None = None
-    """The part of an observation that shows the other aircraft; None if the network has no graph of them."""
 
     def __init__(self, vertiports: int | None, node_features: int, aircraft_features: int) -> None:
         super().__init__()
@@ -64,7 +51,6 @@ class Twin(nn.Module, ABC):
         aircraft: Tensor,
         clock: Tensor,
         edges: Tensor | None = None,
-        fleet: Tensor | None = None,
     ) -> tuple[Tensor, Tensor]:
         """Logits [B, N], not masked, and values [B].
 
@@ -74,22 +60,18 @@ class Twin(nn.Module, ABC):
             clock: share of the day that is left, [B] or [B, 1]; only the value depends on it.
             edges: weights of the edges between vertiports, [B, N, N] or flat [B, N * N], in the direction of
                 flights, if the network reads any.
-            fleet: features of the other aircraft, [B, M, H] or flat [B, M * H], if the network has a graph of
-                them.
 
         Raises:
-            Error: V451 if the network reads edges or other aircraft that are not given, or if some are given
-                that it does not read, or if an argument has another shape.
+            Error: V451 if the network reads edges that are not given, or if some are given that it does not
+                read, or if an argument has another shape.
         """
         nodes = self._by_node(nodes)
         batch, count, _ = nodes.shape
-        between = self._beside("edges", edges, self.edges, (batch, count, count))
-        others = self._beside("fleet", fleet, self.fleet, (batch, *FLEET_SHAPE))
-        return self._answers(nodes, aircraft, clock, Beside(between, others))
+        return self._answers(nodes, aircraft, clock, self._by_pair(edges, batch, count))
 
     @abstractmethod
     def _answers(
-        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, beside: Beside
+        self, nodes: Tensor, aircraft: Tensor, clock: Tensor, edges: Tensor | None
     ) -> tuple[Tensor, Tensor]:
         """Logits and values from what `forward` has checked, with nodes as [B, N, F]."""
 
@@ -104,7 +86,7 @@ class Twin(nn.Module, ABC):
         ``observation=twin.reads``.
         """
         parts = (f"{self.features}nodes", f"{self.features}aircraft", "clock", "action_mask")
-        return (*parts, *(part for part in (self.edges, self.fleet) if part is not None))
+        return parts if self.edges is None else (*parts, self.edges)
 
     @property
     def policy(self) -> dict[str, Any]:
@@ -131,25 +113,20 @@ class Twin(nn.Module, ABC):
             raise Error("V451", f"{rule}, found {list(nodes.shape)}")
         return nodes.reshape(batch, vertiports, features)
 
-    def _beside(
-        self, name: str, given: Tensor | None, part: str | None, shape: tuple[int, int, int]
-    ) -> Tensor | None:
-        """An argument that only some networks read, in this shape, from that or from a flat one.
-
-        `part` is the part of an observation that shows it, None if the network does not read it.
-        """
-        words = BESIDE[name]
-        if given is None and part is None:
+    def _by_pair(self, edges: Tensor | None, batch: int, count: int) -> Tensor | None:
+        """Weights of edges as [B, N, N], from that shape or from a flat one; None if none are read."""
+        if edges is None and self.edges is None:
             return None
-        if given is None:
-            raise Error("V451", f"these weights of {self.kind} need {words}", f"observations show {part!r}")
-        if part is None:
-            raise Error("V451", f"these weights of {self.kind} read no {words}: leave them out")
-        batch, rows, columns = shape
-        if list(given.shape) not in ([batch, rows, columns], [batch, rows * columns]):
-            rule = f"{name} must be [{batch}, {rows}, {columns}] or flat [{batch}, {rows} * {columns}]"
-            raise Error("V451", f"{rule}, found {list(given.shape)}")
-        return given.reshape(shape)
+        if edges is None:
+            raise Error(
+                "V451", f"these weights of {self.kind} need edges", f"observations show {self.edges!r}"
+            )
+        if self.edges is None:
+            raise Error("V451", f"these weights of {self.kind} read no edges: leave them out")
+        if list(edges.shape) not in ([batch, count, count], [batch, count * count]):
+            rule = f"edges must be [{batch}, {count}, {count}] or flat [{batch}, {count} * {count}]"
+            raise Error("V451", f"{rule}, found {list(edges.shape)}")
+        return edges.reshape(batch, count, count)
 
 
 def paper_features(vertiports: int) -> tuple[int, int]:
@@ -159,8 +136,6 @@ def paper_features(vertiports: int) -> tuple[int, int]:
 
 FULL_FEATURES = 37, 11
 """F and G of the full observation, on a network of any size."""
-FLEET_SHAPE = 40, 16
-"""M and H: how many of the other aircraft it shows, and how many numbers of each."""
 
 
 def check_size(name: str, size: int, most: int = MOST, least: int = 1) -> int:

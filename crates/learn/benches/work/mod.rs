@@ -1,5 +1,5 @@
-//! The work that the benchmark and the example `update_speed` measure: made-up decisions of a network with 8
-//! vertiports, and one gradient step on them as PPO takes it.
+//! The work that the benchmark and the example `update_speed` measure: made-up decisions of a
+//! network with 8 vertiports, and one gradient step on them as PPO takes it.
 
 use rayon::prelude::{
     IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator, ParallelSliceMut,
@@ -74,7 +74,6 @@ impl Decisions {
             aircraft: &self.aircraft[first * aircraft_features..][..batch * aircraft_features],
             mask: &self.mask[first * vertiports..][..batch * vertiports],
             edges: &[],
-            fleet: &[],
             clock: &self.clock[first..][..batch],
         }
     }
@@ -109,8 +108,8 @@ impl Learner {
         }
     }
 
-    /// One gradient step: chunks go forward and backward on all of rayon's threads, the gradients are added up, and
-    /// Adam moves the weights.
+    /// One gradient step: chunks go forward and backward on all of rayon's threads, the gradients
+    /// are added up, and Adam moves the weights.
     pub(crate) fn step(&mut self, decisions: &Decisions) {
         let Self { network, weights, moments, lanes, chunk } = self;
         let chunk = *chunk;

@@ -1,5 +1,5 @@
-//! A training run by evolution: moves the weights, plays days with them, goes where days earn more, and keeps the weights
-//! that did best on the validation days.
+//! A training run by evolution: moves the weights, plays days with them, goes where days earn more,
+//! and keeps the weights that did best on the validation days.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -41,7 +41,8 @@ pub(crate) struct EvolutionRun {
 #[serde(deny_unknown_fields)]
 struct Progress {
     curve: Vec<EvolutionRow>,
-    /// The gain of the weights that did best on the validation days, the decisions until then, and these weights.
+    /// The gain of the weights that did best on the validation days, the decisions until then, and
+    /// these weights.
     best_gain: f64,
     best_decisions: u64,
     #[serde(skip)]
@@ -177,8 +178,8 @@ impl EvolutionRun {
             .collect()
     }
 
-    /// Takes a step of Adam along the directions, each as far as the days along it earned more than those against it.
-    /// The slopes are measured in the root of the mean square of the differences.
+    /// Takes a step of Adam along the directions, each as far as the days along it earned more than
+    /// those against it. The slopes are measured in the root of the mean square of the differences.
     fn step(&mut self, seed: u64, differences: &[f64], root: f64) {
         let mut slopes = vec![0.0; self.params.len()];
         for (pair, difference) in (0..).zip(differences) {
@@ -235,7 +236,8 @@ impl TrainingRun for EvolutionRun {
     }
 }
 
-/// Reads the parameters, moments and progress of a checkpoint, and checks that they can be those of this run.
+/// Reads the parameters, moments and progress of a checkpoint, and checks that they can be those of
+/// this run.
 fn read_checkpoint(
     path: &Path,
     identity: &RunIdentity,
@@ -255,19 +257,20 @@ fn read_checkpoint(
     Ok((checkpoint.params, checkpoint.adam, checkpoint.progress))
 }
 
-/// The gain by which weights are kept: the mean of those on the network's days and on days of random networks.
+/// The gain by which weights are kept: the mean of those on the network's days and on days of
+/// random networks.
 fn mean_gain(found: Validated) -> f64 {
     found.random_gain.map_or(found.gain, |random| f64::midpoint(found.gain, random))
 }
 
-/// The difference that moved weights make, as a share of the mean score; 0 where nothing is earned, because a checkpoint
-/// cannot hold a number that is not finite.
+/// The difference that moved weights make, as a share of the mean score; 0 where nothing is earned,
+/// because a checkpoint cannot hold a number that is not finite.
 fn share_of(difference: f64, mean: f64) -> f64 {
     if mean == 0.0 { 0.0 } else { difference / mean.abs() }
 }
 
-/// The profit of a typical full flight of every aircraft of a day, dollars. Divided by it, days of large and of small
-/// fleets count alike.
+/// The profit of a typical full flight of every aircraft of a day, dollars. Divided by it, days of
+/// large and of small fleets count alike.
 fn day_unit_usd(day: &Arc<Scenario>) -> f64 {
     let simulation = Simulation::new(Arc::clone(day));
     let units_usd = units_usd(simulation.view());

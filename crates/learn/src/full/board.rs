@@ -1,9 +1,11 @@
-//! The flights that can leave each vertiport, looked at once and remembered while nothing changes of what they follow from.
+//! The flights that can leave each vertiport, looked at once and remembered while nothing changes
+//! of what they follow from.
 //!
-//! A decision looks at all pairs of vertiports four times, at different times of the day. Between two decisions the passengers
-//! of one pair have changed, and the hour perhaps. So a vertiport's flights are kept with the passengers that were counted. They are
-//! true while the same passengers wait, at the times at which profits are
-//! [steady](vertifleet_sim::Departures::steady). That holds for the day itself and for roll-outs of it that have gone different ways.
+//! A decision looks at all pairs of vertiports four times, at different times of the day. Between
+//! two decisions the passengers of one pair have changed, and the hour perhaps. So a vertiport's
+//! flights are kept with the passengers that were counted. They are true while the same passengers
+//! wait, at the times at which profits are [steady](vertifleet_sim::Departures::steady). That holds
+//! for the day itself and for roll-outs of it that have gone different ways.
 
 use std::ops::Range;
 
@@ -13,7 +15,8 @@ use vertifleet_sim::{DayKey, View};
 
 use crate::full::features::hours;
 
-/// Demand periods that are kept; a later one takes the place of the one that lies so many before it.
+/// Demand periods that are kept; a later one takes the place of the one that lies so many before
+/// it.
 const PERIODS: usize = 8;
 /// Most vertiports of all days that are kept at a time, as many as a batch of decisions has.
 const MOST_VERTIPORTS: usize = 2_048;
@@ -34,8 +37,8 @@ pub(super) struct Board {
     units_usd: Vec<f64>,
     /// By type, demand period and vertiport.
     known: Vec<Known>,
-    /// By type, demand period and pair of vertiports: the passengers that were counted, and the profit per hour of a flight in
-    /// units, between 0 and 3 and 0 out of range.
+    /// By type, demand period and pair of vertiports: the passengers that were counted, and the
+    /// profit per hour of a flight in units, between 0 and 3 and 0 out of range.
     waiting: Vec<u32>,
     rates: Vec<f32>,
 }
@@ -52,7 +55,8 @@ struct Known {
 pub(super) struct Onward {
     /// The highest profits per hour of a flight, in units.
     pub(super) best: [f64; 3],
-    /// The passengers of the destinations that pay, in full flights, and the profit of these flights in units.
+    /// The passengers of the destinations that pay, in full flights, and the profit of these
+    /// flights in units.
     pub(super) flights: f64,
     pub(super) profit: f64,
 }
@@ -114,8 +118,9 @@ impl Board {
         self.known[row].onward
     }
 
-    /// Profit per hour of a flight from a vertiport to each, in units, between 0 and 3, and 0 out of range, as they were when the
-    /// vertiport and the type were last looked at for a demand period.
+    /// Profit per hour of a flight from a vertiport to each, in units, between 0 and 3, and 0 out
+    /// of range, as they were when the vertiport and the type were last looked at for a demand
+    /// period.
     pub(super) fn rates(&self, kind: TypeIx, from: VertiportIx, period: usize) -> &[f32] {
         &self.rates[self.row(kind, from, period) * self.vertiports..][..self.vertiports]
     }
@@ -159,7 +164,8 @@ impl Board {
 }
 
 impl Onward {
-    /// Adds a destination: the profit per hour and the profit of a flight, in units, and the number of flights.
+    /// Adds a destination: the profit per hour and the profit of a flight, in units, and the number
+    /// of flights.
     fn add(&mut self, mut rate: f64, profit: f64, flights: f64) {
         if rate <= 0.0 {
             return;

@@ -1,17 +1,17 @@
-//! The full observation: every vertiport as it looks from the deciding aircraft, with what the forecast and the fleet
-//! say of it, in numbers that mean the same on every network.
+//! The full observation: every vertiport as it looks from the deciding aircraft, with what the
+//! forecast and the fleet say of it, in numbers that mean the same on every network.
 //!
-//! Dollars are measured in the profit of a typical full flight of the network, times in hours, and passengers in
-//! flights; every number is bounded. Writing a row looks at every pair of vertiports four times, which [boards](Boards) make
-//! cheap, and once at the fleet, twice if the other aircraft are shown one by one.
+//! Dollars are measured in the profit of a typical full flight of the network, times in hours, and
+//! passengers in flights; every number is bounded. Writing a row looks at every pair of vertiports
+//! four times, which [boards](Boards) make cheap, and once at the fleet.
 
 use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
 use crate::full::board::{Board, Boards, Onward};
 use crate::gcaps_x::features::saturating_count;
-use crate::nn::{AIRCRAFT_SHOWN, Adjacency, Architecture, FLEET_FEATURES, Shape};
-use crate::rows::{ExtraInputs, Row, Rows};
+use crate::nn::{Adjacency, Architecture, Shape};
+use crate::rows::{Row, Rows, has_edges};
 
 /// F, the number of node features.
 pub(crate) const NODE_FEATURES: usize = 37;
@@ -73,33 +73,14 @@ pub(crate) const AIRCRAFT_FEATURE_NAMES: [&str; AIRCRAFT_FEATURES] = [
     "aircraft_a_vertiport",
     "aircraft_a_stand",
 ];
-/// The features of another aircraft in their order. The last ten are those of its vertiport, which [`OF_PLACE`] names.
-#[cfg(test)]
-pub(crate) const FLEET_FEATURE_NAMES: [&str; FLEET_FEATURES] = [
-    "is_there",
-    "ready_h",
-    "is_ready",
-    "is_here",
-    "is_of_own_type",
-    "day_left",
-    "block_h",
-    "profit",
-    "profit_per_h",
-    "demand_next",
-    "stands_free",
-    "ready_before",
-    "onward_best",
-    "onward_second",
-    "onward_flights",
-    "crowding",
-];
-/// What another aircraft shows of the vertiport at which it stands or will land, by the places of these node features.
-const OF_PLACE: [usize; 10] = [3, 4, 5, 9, 10, 12, 22, 23, 28, 35];
-/// Other aircraft that are ready this long before or after the deciding one want the same flights, seconds.
+/// Other aircraft that are ready this long before or after the deciding one want the same flights,
+/// seconds.
 const NEAR_S: u32 = 900;
-/// How soon other aircraft at a vertiport are ready, seconds; they are counted for each of these times.
+/// How soon other aircraft at a vertiport are ready, seconds; they are counted for each of these
+/// times.
 const READY_S: [u32; 5] = [0, 900, 1_800, 3_600, 7_200];
-/// What can be flown from a vertiport is looked at when the aircraft is ready there, and so long afterwards, seconds.
+/// What can be flown from a vertiport is looked at when the aircraft is ready there, and so long
+/// afterwards, seconds.
 const ONWARD_S: [u32; 3] = [0, 3_600, 7_200];
 
 /// The shape of the features for this many vertiports.
@@ -107,23 +88,25 @@ pub(crate) fn shape(vertiports: usize) -> Shape {
     Shape { vertiports, node_features: NODE_FEATURES, aircraft_features: AIRCRAFT_FEATURES }
 }
 
-/// Writes rows. It remembers the flights of the days that it wrote lately, and keeps its memory from row to row.
+/// Writes rows. It remembers the flights of the days that it wrote lately, and keeps its memory
+/// from row to row.
 #[derive(Debug, Clone)]
 pub(crate) struct Writer {
     adjacency: Adjacency,
-    beside: ExtraInputs,
+    has_edges: bool,
     boards: Boards,
     /// What the row being written says of each vertiport.
     seen: Vec<Seen>,
 }
 
-/// A vertiport as the deciding aircraft would find it: the other aircraft that stand there or are on their way there, and the
-/// flights from there.
+/// A vertiport as the deciding aircraft would find it: the other aircraft that stand there or are
+/// on their way there, and the flights from there.
 #[derive(Debug, Clone, Copy, Default)]
 struct Seen {
     /// The time at which the deciding aircraft would be ready there.
     ready: Time,
-    /// The number of aircraft that are ready before that time, and the number that are ready at about that time.
+    /// The number of aircraft that are ready before that time, and the number that are ready at
+    /// about that time.
     before: u16,
     near: u16,
     /// The number of aircraft that are ready within each time of [`READY_S`].
@@ -145,27 +128,23 @@ pub(crate) struct Scene<'a> {
 impl Writer {
     /// A writer of what a policy's network reads.
     pub(crate) fn of(policy: &Architecture) -> Self {
-        let (adjacency, beside) = (policy.adjacency(), ExtraInputs::of(policy));
-        Self { adjacency, beside, ..Self::of_features() }
+        let (adjacency, has_edges) = (policy.adjacency(), has_edges(policy));
+        Self { adjacency, has_edges, ..Self::of_features() }
     }
 
     /// A writer of the features of vertiports and aircraft alone.
     pub(crate) fn of_features() -> Self {
         let adjacency = Adjacency::Complete;
-        Self {
-            adjacency,
-            beside: ExtraInputs::default(),
-            boards: Boards::default(),
-            seen: Vec::new(),
-        }
+        Self { adjacency, has_edges: false, boards: Boards::default(), seen: Vec::new() }
     }
 
     /// No rows yet, for days with so many vertiports.
     pub(crate) fn rows(&self, vertiports: usize) -> Rows {
-        Rows::new(shape(vertiports), self.beside)
+        Rows::new(shape(vertiports), self.has_edges)
     }
 
-    /// Adds the row of a decision between all of its feasible choices. Returns the decision with the unit of money.
+    /// Adds the row of a decision between all of its feasible choices. Returns the decision with
+    /// the unit of money.
     pub(crate) fn push<'a>(
         &mut self,
         view: View<'a>,
@@ -182,9 +161,6 @@ impl Writer {
             scene.write(seen, row);
             if !row.edges.is_empty() {
                 scene.write_edges(board, adjacency, view.vertiports(), row.edges);
-            }
-            if !row.fleet.is_empty() {
-                scene.write_fleet(row.nodes, row.fleet);
             }
         });
         scene
@@ -244,8 +220,8 @@ impl Scene<'_> {
         }
     }
 
-    /// Writes the weights of the edges of an adjacency, with a row of `stride` entries for each vertiport, over zeros: what
-    /// is 0, as pairs out of range are, need not be written.
+    /// Writes the weights of the edges of an adjacency, with a row of `stride` entries for each
+    /// vertiport, over zeros: what is 0, as pairs out of range are, need not be written.
     pub(super) fn write_edges(
         self,
         board: &Board,
@@ -276,42 +252,6 @@ impl Scene<'_> {
                     closed.iter().for_each(|to| row[to.at()] = 0.0);
                 }
             }
-        }
-    }
-
-    /// Writes the features of the other aircraft that are ready first [M x H]; `nodes` are those of the vertiports. Rows
-    /// without an aircraft stay as they are.
-    pub(crate) fn write_fleet(self, nodes: &[f32], fleet: &mut [f32]) {
-        let Self { view, decision, kind, .. } = self;
-        let mut first = [(Time::default(), decision.aircraft); AIRCRAFT_SHOWN];
-        let mut known = 0;
-        for other in
-            AircraftIx::all(view.places().len()).filter(|other| *other != decision.aircraft)
-        {
-            let entry = (view.ready_at(other), other);
-            let at = first[..known].partition_point(|known| *known < entry);
-            if at < AIRCRAFT_SHOWN {
-                known = (known + 1).min(AIRCRAFT_SHOWN);
-                first[at..known].rotate_right(1);
-                first[at] = entry;
-            }
-        }
-        for (&(ready, other), to) in
-            first[..known].iter().zip(fleet.chunks_exact_mut(FLEET_FEATURES))
-        {
-            let place = view.places()[other.at()];
-            let own = [
-                1.0,
-                hours(ready.since(decision.time)).min(2.0),
-                f64::from(u8::from(ready <= decision.time)),
-                f64::from(u8::from(place == decision.at)),
-                f64::from(u8::from(view.kind(other) == kind)),
-                self.share_of_day(ready),
-            ];
-            let of_place = &nodes[place.at() * NODE_FEATURES..][..NODE_FEATURES];
-            let of_place = OF_PLACE.iter().map(|&feature| of_place[feature]);
-            let numbers = own.iter().map(|&number| number as f32).chain(of_place);
-            to.iter_mut().zip(numbers).for_each(|(to, number)| *to = number);
         }
     }
 

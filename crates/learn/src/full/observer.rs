@@ -7,7 +7,8 @@ use crate::full::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Scene, Writer};
 use crate::nn::Adjacency;
 use crate::rows::Rows;
 
-/// Shows decisions as policies of the full observation see them. It remembers the flights of the days that it showed lately.
+/// Shows decisions as policies of the full observation see them. It remembers the flights of the
+/// days that it showed lately.
 #[derive(Debug, Clone)]
 pub struct FullObserver {
     writer: Writer,
@@ -17,7 +18,8 @@ pub struct FullObserver {
 /// A decision as policies of the full observation see it.
 #[derive(Debug, Clone, Copy)]
 pub struct FullObservation<'a> {
-    /// The features of the vertiports, `[N][37]`. The first of each is 1 if the vertiport may be chosen.
+    /// The features of the vertiports, `[N][37]`. The first of each is 1 if the vertiport may be
+    /// chosen.
     pub nodes: &'a [f32],
     /// The features of the aircraft, `[11]`.
     pub aircraft: &'a [f32],
@@ -61,15 +63,10 @@ impl FullObserver {
 }
 
 impl FullObservation<'_> {
-    /// Writes the weights of the edges between vertiports, in the direction of flights, with a row of `stride` entries
-    /// for each vertiport that flights come from, over zeros: what is 0, as pairs out of range are, need not be written.
+    /// Writes the weights of the edges between vertiports, in the direction of flights, with a row
+    /// of `stride` entries for each vertiport that flights come from, over zeros: what is 0, as
+    /// pairs out of range are, need not be written.
     pub fn write_edges(&self, adjacency: Adjacency, stride: usize, edges: &mut [f32]) {
         self.scene.write_edges(self.board, adjacency, stride, edges);
-    }
-
-    /// Writes the features of the other aircraft that are ready first, `[40][16]`. Rows without an aircraft stay as they
-    /// are.
-    pub fn write_fleet(&self, fleet: &mut [f32]) {
-        self.scene.write_fleet(self.nodes, fleet);
     }
 }

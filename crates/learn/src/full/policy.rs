@@ -22,7 +22,8 @@ const MOST_NODES: usize = 2_048;
 /// Why there is a network of the right size when roll-outs are scored.
 const CLEARED: &str = "rows are cleared before they are added";
 
-/// Decides by the full observation. It is deterministic: among equal logits the first vertiport wins.
+/// Decides by the full observation. It is deterministic: among equal logits the first vertiport
+/// wins.
 pub struct FullPolicy {
     architecture: Architecture,
     weights: Arc<Weights>,
@@ -125,8 +126,8 @@ impl Policy for FullPolicy {
     }
 }
 
-/// It decides between all feasible choices. A logit of 1 is worth the unit of the samples that it learned from, divided
-/// by [`LOGITS_A_UNIT`].
+/// It decides between all feasible choices. A logit of 1 is worth the unit of the samples that it
+/// learned from, divided by [`LOGITS_A_UNIT`].
 impl Scores for FullPolicy {
     fn list(&mut self, Scene { view, decision, .. }: Scene<'_>, listed: &mut Vec<PricedChoice>) {
         let unknown = |to| PricedChoice { worth_usd: 0.0, to };

@@ -2,34 +2,22 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{AircraftIx, DaySeed, Network, Purpose, Scenario, VertiportIx, World};
+use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx, World};
 use vertifleet_policy::{DayPrices, Policy, PricedChoice, RolloutSettings, play};
-use vertifleet_sim::{Decision, Simulation, View, check::check};
+use vertifleet_sim::{Simulation, check::check};
 
 use crate::FullPolicy;
 use crate::full::features::{
-    AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, FLEET_FEATURE_NAMES, NODE_FEATURE_NAMES,
-    NODE_FEATURES, Writer,
+    AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, NODE_FEATURE_NAMES, NODE_FEATURES, Writer,
 };
 use crate::gcaps_x::features::Scene;
 use crate::gcaps_x::{first_column, played, with_opinions};
-use crate::nn::{
-    AIRCRAFT_SHOWN, Adjacency, Architecture, FLEET_FEATURES, GcapsSettings, GraphSettings, Inputs,
-};
+use crate::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings, Inputs};
 use crate::rollouts::RolloutPlayer;
 
 fn small(adjacency: Adjacency) -> Architecture {
-    with_graph(GraphSettings { adjacency, ..GraphSettings::default() })
-}
-
-fn with_graph(graph: GraphSettings) -> Architecture {
+    let graph = GraphSettings { adjacency, ..GraphSettings::default() };
     Architecture::GcapsFull(GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) })
-}
-
-/// A policy that also reads a graph of the other aircraft.
-fn with_aircraft() -> Architecture {
-    let adjacency = Adjacency::Profit;
-    with_graph(GraphSettings { adjacency, aircraft_graph: true, ..GraphSettings::default() })
 }
 
 /// The same policy twice, with opinions of its own.
@@ -50,7 +38,7 @@ fn days() -> Vec<Arc<Scenario>> {
 
 #[test]
 fn any_weights_keep_every_rule_on_networks_of_any_size() {
-    for policy in [small(Adjacency::Complete), small(Adjacency::Profit), with_aircraft()] {
+    for policy in [small(Adjacency::Complete), small(Adjacency::Profit)] {
         let weights = with_opinions(&policy, 1);
         let mut policy = FullPolicy::of(policy, weights);
         for day in days() {
@@ -62,13 +50,7 @@ fn any_weights_keep_every_rule_on_networks_of_any_size() {
 
 #[test]
 fn a_batch_of_days_of_all_sizes_is_answered_as_each_alone() {
-    for policy in [small(Adjacency::Reachable), with_aircraft()] {
-        let [alone, together] = twice(&policy);
-        assert_answers_agree(alone, together);
-    }
-}
-
-fn assert_answers_agree(mut alone: FullPolicy, mut together: FullPolicy) {
+    let [mut alone, mut together] = twice(&small(Adjacency::Reachable));
     let mut simulations: Vec<Simulation> = days().into_iter().map(Simulation::new).collect();
     for _ in 0..30 {
         let decisions: Vec<_> =
@@ -93,7 +75,7 @@ fn assert_answers_agree(mut alone: FullPolicy, mut together: FullPolicy) {
 fn features_are_bounded_and_choices_are_feasible_on_every_network() {
     for day in days() {
         let mut simulation = Simulation::new(Arc::clone(&day));
-        let mut writer = Writer::of(&with_aircraft());
+        let mut writer = Writer::of(&small(Adjacency::Profit));
         let mut rows = writer.rows(day.vertiports.len());
         while let Some(decision) = simulation.next_decision() {
             let view = simulation.view();
@@ -101,7 +83,7 @@ fn features_are_bounded_and_choices_are_feasible_on_every_network() {
             writer.push(view, &decision, &mut rows);
             let inputs = rows.inputs();
             let numbers = inputs.nodes.iter().chain(inputs.aircraft);
-            let numbers = numbers.chain(inputs.edges).chain(inputs.fleet);
+            let numbers = numbers.chain(inputs.edges);
             assert!(numbers.clone().all(|number| (-2.0..=4.0).contains(number)), "{numbers:?}");
             let feasible = view.feasible(&decision);
             let mask = inputs.mask.iter().enumerate();
@@ -118,7 +100,7 @@ fn features_are_bounded_and_choices_are_feasible_on_every_network() {
 
 #[test]
 fn what_is_remembered_is_what_is_seen_anew() {
-    let mut remembering = Writer::of(&with_aircraft());
+    let mut remembering = Writer::of(&small(Adjacency::Profit));
     let mut days: Vec<Simulation> = days().into_iter().map(Simulation::new).collect();
     for number in 0..400 {
         // By turns, as in a batch, and with a different choice each time.
@@ -126,7 +108,7 @@ fn what_is_remembered_is_what_is_seen_anew() {
             let Some(decision) = simulation.next_decision() else { continue };
             let view = simulation.view();
             let [kept, fresh] =
-                [&mut remembering, &mut Writer::of(&with_aircraft())].map(|writer| {
+                [&mut remembering, &mut Writer::of(&small(Adjacency::Profit))].map(|writer| {
                     let mut rows = writer.rows(view.vertiports());
                     writer.push(view, &decision, &mut rows);
                     let Inputs { nodes, aircraft, edges, .. } = rows.inputs();
@@ -141,62 +123,6 @@ fn what_is_remembered_is_what_is_seen_anew() {
 }
 
 #[test]
-fn the_other_aircraft_that_are_ready_first_are_shown_with_their_vertiports() {
-    let seed = DaySeed::validation(3).expect("a seed");
-    let large = Arc::new(Network::shipped("large").expect("shipped").draw(seed));
-    assert!(large.aircraft.len() > AIRCRAFT_SHOWN + 1, "not all aircraft are shown");
-    for day in days().into_iter().chain([large]) {
-        let mut simulation = Simulation::new(Arc::clone(&day));
-        let mut writer = Writer::of(&with_aircraft());
-        let mut rows = writer.rows(day.vertiports.len());
-        for number in 0..300 {
-            let Some(decision) = simulation.next_decision() else { break };
-            if number % 50 == 49 {
-                rows.clear();
-                writer.push(simulation.view(), &decision, &mut rows);
-                assert_fleet_is_shown(simulation.view(), &decision, rows.inputs());
-            }
-            let choice = simulation.view().feasible(&decision).iter().next();
-            simulation.apply(choice.expect("a mask is never empty")).expect("it is feasible");
-        }
-    }
-}
-
-fn assert_fleet_is_shown(
-    view: View<'_>,
-    decision: &Decision,
-    Inputs { nodes, fleet, .. }: Inputs<'_>,
-) {
-    let mut others: Vec<_> = AircraftIx::all(view.places().len())
-        .filter(|other| *other != decision.aircraft)
-        .map(|other| (view.ready_at(other), other))
-        .collect();
-    others.sort_unstable();
-    let shown = fleet.chunks_exact(FLEET_FEATURES);
-    assert_eq!(shown.len(), AIRCRAFT_SHOWN);
-    for (at, shown) in shown.enumerate() {
-        let Some(&(ready, other)) = others.get(at) else {
-            assert!(shown.iter().all(|number| *number == 0.0), "no aircraft is there");
-            continue;
-        };
-        let place = view.places()[other.at()];
-        let ready_h = ready.since(decision.time) as f32 / 3_600.0;
-        assert_eq!((shown[0], shown[1]), (1.0, ready_h.min(2.0)));
-        let is = |number: f32| number == 1.0;
-        assert_eq!(is(shown[2]), ready <= decision.time);
-        assert_eq!(is(shown[3]), place == decision.at);
-        assert_eq!(is(shown[4]), view.kind(other) == view.kind(decision.aircraft));
-        let day_s = view.day_end().since(view.day_start()) as f32;
-        assert!((shown[5] - view.day_end().since(ready) as f32 / day_s).abs() < 1e-6);
-        let node = &nodes[place.at() * NODE_FEATURES..][..NODE_FEATURES];
-        for (name, number) in FLEET_FEATURE_NAMES.iter().zip(shown).skip(6) {
-            let feature = NODE_FEATURE_NAMES.iter().position(|known| known == name);
-            assert_eq!(*number, node[feature.expect("of a vertiport")], "{name}");
-        }
-    }
-}
-
-#[test]
 fn the_page_names_every_feature_in_its_order() {
     let page = include_str!("../../../../docs/src/concepts/policies.md");
     let (_, page) = page.split_once("\n## gcaps-full\n").expect("a section");
@@ -204,8 +130,6 @@ fn the_page_names_every_feature_in_its_order() {
     assert_eq!(first_column(page, &nodes), NODE_FEATURE_NAMES);
     let aircraft = format!("What the aircraft shows ({AIRCRAFT_FEATURES} numbers):");
     assert_eq!(first_column(page, &aircraft), AIRCRAFT_FEATURE_NAMES);
-    let others = format!("What each of the other aircraft shows ({FLEET_FEATURES} numbers)");
-    assert_eq!(first_column(page, &others), FLEET_FEATURE_NAMES);
 }
 
 #[test]

@@ -1,9 +1,10 @@
-//! The observation of `gcaps-x`: every vertiport as it looks from the deciding aircraft, in numbers that mean the same
-//! on every network.
+//! The observation of `gcaps-x`: every vertiport as it looks from the deciding aircraft, in numbers
+//! that mean the same on every network.
 //!
-//! Dollars are measured in the profit of a typical full flight of the network, times in hours, and passengers in
-//! flights; every number is bounded. Writing a row takes one pass over the vertiports and one over the fleet, and for
-//! up to 48 of the aircraft that are ready soon it also computes which choice they would prefer.
+//! Dollars are measured in the profit of a typical full flight of the network, times in hours, and
+//! passengers in flights; every number is bounded. Writing a row takes one pass over the vertiports
+//! and one over the fleet, and for up to 48 of the aircraft that are ready soon it also computes
+//! which choice they would prefer.
 
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_policy::{Choices, DayPrices, PricedChoice};
@@ -58,17 +59,20 @@ pub(crate) const AIRCRAFT_FEATURE_NAMES: [&str; AIRCRAFT_FEATURES] = [
     "aircraft_a_vertiport",
     "aircraft_a_stand",
 ];
-/// A factor for differences in worth, which makes the small ones that matter visible to the network.
+/// A factor for differences in worth, which makes the small ones that matter visible to the
+/// network.
 const SHARPER: f64 = 8.0;
-/// Other aircraft that are ready this long before or after the deciding one want the same flights, seconds.
+/// Other aircraft that are ready this long before or after the deciding one want the same flights,
+/// seconds.
 const NEAR_S: u32 = 900;
-/// For other aircraft that are ready within this time, seconds, the preferred choice is computed; for at most
-/// `MOST_COMPETITORS` of them, and for fewer if there are more than 30 vertiports to choose from.
+/// For other aircraft that are ready within this time, seconds, the preferred choice is computed;
+/// for at most `MOST_COMPETITORS` of them, and for fewer if there are more than 30 vertiports to
+/// choose from.
 const COMPETITORS_S: u32 = 1_800;
 const MOST_COMPETITORS: usize = 48;
 const MOST_ASKED: usize = 30 * MOST_COMPETITORS;
-/// How soon other aircraft at the same vertiport are ready, seconds; the aircraft features count them for each of
-/// these times.
+/// How soon other aircraft at the same vertiport are ready, seconds; the aircraft features count
+/// them for each of these times.
 const QUEUE_S: [u32; 3] = [900, 1_800, 3_600];
 
 /// The shape of the features for this many vertiports.
@@ -91,9 +95,10 @@ impl<'a> Scene<'a> {
         Self { view, decision, prices, unit_usd: prices.unit_usd(view.kind(decision.aircraft)) }
     }
 
-    /// The unit of the network's additions, dollars: the profit of a typical full flight, reduced where a decision has
-    /// less than that at stake. The network learns where most flights are full. Where most seats stay empty, the
-    /// prices are the better guide, and an addition of a share of a full flight would drown them out.
+    /// The unit of the network's additions, dollars: the profit of a typical full flight, reduced
+    /// where a decision has less than that at stake. The network learns where most flights are
+    /// full. Where most seats stay empty, the prices are the better guide, and an addition of a
+    /// share of a full flight would drown them out.
     pub(crate) fn addition_usd(&self) -> f64 {
         let fullness = (self.prices.stake_usd() / self.unit_usd).min(1.0);
         self.unit_usd * fullness * fullness
@@ -112,18 +117,19 @@ pub(crate) struct Writer {
 struct Seen {
     /// The time at which the deciding aircraft would be ready there.
     ready: Time,
-    /// The number of aircraft that are ready before that time, and the number that are ready at about that time.
+    /// The number of aircraft that are ready before that time, and the number that are ready at
+    /// about that time.
     before: u16,
     near: u16,
-    /// The number of aircraft that are ready soon and are best off here, and the sum of what they would lose by going
-    /// elsewhere, in units.
+    /// The number of aircraft that are ready soon and are best off here, and the sum of what they
+    /// would lose by going elsewhere, in units.
     competitors: u16,
     contention: f64,
 }
 
 impl Writer {
-    /// Adds the row of a decision between the choices of a list, which starts with the best and has the worth of each
-    /// at the prices.
+    /// Adds the row of a decision between the choices of a list, which starts with the best and has
+    /// the worth of each at the prices.
     pub(crate) fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice], rows: &mut Rows) {
         let queue = self.write_vertiport_features(scene);
         let best_usd = listed[0].worth_usd;
@@ -150,8 +156,8 @@ impl Writer {
         });
     }
 
-    /// Counts the other aircraft at each vertiport. Returns how many of them are ready at the deciding aircraft's own
-    /// vertiport within each time of [`QUEUE_S`].
+    /// Counts the other aircraft at each vertiport. Returns how many of them are ready at the
+    /// deciding aircraft's own vertiport within each time of [`QUEUE_S`].
     fn write_vertiport_features(&mut self, scene: Scene<'_>) -> [u16; 3] {
         let Scene { view, decision, .. } = scene;
         let kind = view.kind(decision.aircraft);
@@ -189,8 +195,8 @@ impl Writer {
         queue
     }
 
-    /// Records which choice another aircraft would prefer, among those that are open now and not known to be closed
-    /// when it is ready.
+    /// Records which choice another aircraft would prefer, among those that are open now and not
+    /// known to be closed when it is ready.
     fn count_competitor(
         &mut self,
         Scene { view, prices, unit_usd, .. }: Scene<'_>,
@@ -218,7 +224,8 @@ impl Writer {
     }
 }
 
-/// The aircraft features; `lead` is by how much the best choice is worth more than the second, in units.
+/// The aircraft features; `lead` is by how much the best choice is worth more than the second, in
+/// units.
 fn aircraft(
     scene: Scene<'_>,
     queue: [u16; 3],

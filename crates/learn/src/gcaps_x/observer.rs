@@ -5,10 +5,10 @@ use vertifleet_sim::{Decision, View};
 
 use crate::gcaps_x::features::{AIRCRAFT_FEATURES, NODE_FEATURES, Scene, Writer, shape};
 use crate::gcaps_x::scorer::LOGITS_A_UNIT;
-use crate::rows::{ExtraInputs, Rows};
+use crate::rows::Rows;
 
-/// Shows decisions as `gcaps-x` sees them. It remembers the bid prices of the day that it showed last, so each day that
-/// is played side by side with others should have an observer of its own.
+/// Shows decisions as `gcaps-x` sees them. It remembers the bid prices of the day that it showed
+/// last, so each day that is played side by side with others should have an observer of its own.
 #[derive(Debug, Clone)]
 pub struct PricedObserver {
     prices: PriceMemory,
@@ -21,12 +21,14 @@ pub struct PricedObserver {
 /// A decision as `gcaps-x` sees it.
 #[derive(Debug, Clone, Copy)]
 pub struct PricedObservation<'a> {
-    /// The features of the vertiports, `[N][24]`. The first of each is 1 if the vertiport is on the shortlist.
+    /// The features of the vertiports, `[N][24]`. The first of each is 1 if the vertiport is on the
+    /// shortlist.
     pub nodes: &'a [f32],
     /// The features of the aircraft, `[10]`.
     pub aircraft: &'a [f32],
-    /// The worth of each choice of the shortlist at the bid prices, less that of the best, in the unit of the network's
-    /// logits; 0 for the others, `[N]`. The choice of `gcaps-x` has the highest sum of this and its logit.
+    /// The worth of each choice of the shortlist at the bid prices, less that of the best, in the
+    /// unit of the network's logits; 0 for the others, `[N]`. The choice of `gcaps-x` has the
+    /// highest sum of this and its logit.
     pub worth: &'a [f32],
 }
 
@@ -36,7 +38,7 @@ impl Default for PricedObserver {
             prices: PriceMemory::default(),
             shortlist: Shortlist::default(),
             writer: Writer::default(),
-            rows: Rows::new(shape(0), ExtraInputs::default()),
+            rows: Rows::new(shape(0), false),
             worth: Vec::new(),
         }
     }
@@ -57,7 +59,7 @@ impl PricedObserver {
         let scene = Scene::of(view, decision, prices);
         let vertiports = view.vertiports();
         if self.rows.vertiports() != vertiports {
-            self.rows = Rows::new(shape(vertiports), ExtraInputs::default());
+            self.rows = Rows::new(shape(vertiports), false);
         }
         self.rows.clear();
         self.writer.push(scene, listed, &mut self.rows);
@@ -66,7 +68,8 @@ impl PricedObserver {
         for choice in listed {
             let less_usd = choice.worth_usd - listed[0].worth_usd;
             let logits = LOGITS_A_UNIT * less_usd / scene.addition_usd();
-            // Where nothing is at stake the network adds nothing, and any difference is infinite in its unit.
+            // Where nothing is at stake the network adds nothing, and any difference is infinite in
+            // its unit.
             self.worth[choice.to.at()] =
                 if less_usd == 0.0 { 0.0 } else { logits.max(Self::LEAST) as f32 };
         }

@@ -12,7 +12,8 @@ use crate::model::Model;
 use crate::nn::{Architecture, Weights};
 use crate::rollouts::RolloutPlayer;
 
-/// Decides by the day's prices and by a network that scores the choices that are worth nearly as much as the best.
+/// Decides by the day's prices and by a network that scores the choices that are worth nearly as
+/// much as the best.
 pub struct GcapsX {
     architecture: Architecture,
     weights: Arc<Weights>,
@@ -22,7 +23,8 @@ pub struct GcapsX {
     shortlist: Shortlist,
     /// The choices with their worth by prices and network, dollars.
     scored: Vec<PricedChoice>,
-    /// How many choices are rolled out, and what plays the roll-outs; `None` if the policy decides at once.
+    /// How many choices are rolled out, and what plays the roll-outs; `None` if the policy decides
+    /// at once.
     rollouts: Option<(usize, RolloutPlayer)>,
 }
 
@@ -30,8 +32,8 @@ impl GcapsX {
     /// At most this many choices are scored, so no more can be rolled out.
     pub const MOST_ROLLED_OUT: usize = Shortlist::MOST;
 
-    /// The policy of a `gcaps-x` model. It rolls its `most_rolled_out` best choices out before it decides, at most
-    /// [`MOST_ROLLED_OUT`](Self::MOST_ROLLED_OUT); with 1 or 0 it decides at once.
+    /// The policy of a `gcaps-x` model. It rolls its `most_rolled_out` best choices out before it
+    /// decides, at most [`MOST_ROLLED_OUT`](Self::MOST_ROLLED_OUT); with 1 or 0 it decides at once.
     pub fn new(model: &Model, most_rolled_out: usize) -> Self {
         Self::of(model.header().policy.clone(), Arc::new(model.weights()), most_rolled_out)
     }
@@ -53,8 +55,8 @@ impl GcapsX {
         }
     }
 
-    /// Writes the worth of each choice of the shortlist by prices and network, and returns the list, ranked by the
-    /// prices.
+    /// Writes the worth of each choice of the shortlist by prices and network, and returns the
+    /// list, ranked by the prices.
     fn score_shortlist(
         &mut self,
         decision: &Decision,

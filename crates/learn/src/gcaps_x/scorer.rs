@@ -5,8 +5,8 @@
 //! ```
 //!
 //! where the unit is the profit of a typical full flight, or less if the decision has less at stake
-//! ([`Scene::addition_usd`]). A network of zeros adds nothing, so it decides as `prices` does. Only the choices of a
-//! [`Shortlist`] are scored, which are worth nearly as much as the best.
+//! ([`Scene::addition_usd`]). A network of zeros adds nothing, so it decides as `prices` does. Only
+//! the choices of a [`Shortlist`] are scored, which are worth nearly as much as the best.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use crate::gcaps_x::features::{Scene, Writer, shape};
 use crate::header::network;
 use crate::nn::{self, Architecture, Weights, Workspace};
 use crate::rollouts::{MOST_ROWS, Scores};
-use crate::rows::{ExtraInputs, Rows};
+use crate::rows::Rows;
 
 /// A logit of 1 is worth the unit divided by this.
 pub(crate) const LOGITS_A_UNIT: f64 = 20.0;
@@ -43,7 +43,7 @@ impl Scorer {
     ) -> Self {
         let net = network(architecture, vertiports);
         let workspace = net.workspace(MOST_ROWS);
-        let rows = Rows::new(shape(vertiports), ExtraInputs::default());
+        let rows = Rows::new(shape(vertiports), false);
         Self {
             net,
             weights,
@@ -58,8 +58,8 @@ impl Scorer {
         self.rows.vertiports()
     }
 
-    /// The choice of a list with the highest worth, the first of them if several are equal. The list is ranked by the
-    /// prices.
+    /// The choice of a list with the highest worth, the first of them if several are equal. The
+    /// list is ranked by the prices.
     pub(crate) fn best(&mut self, scene: Scene<'_>, listed: &[PricedChoice]) -> VertiportIx {
         if let [only] = listed {
             return only.to;

@@ -13,7 +13,7 @@ use crate::gcaps_x::features::{
 };
 use crate::header::network;
 use crate::nn::{Architecture, GcapsSettings, Inputs, Weights};
-use crate::rows::{ExtraInputs, Rows};
+use crate::rows::Rows;
 
 fn small() -> Architecture {
     Architecture::GcapsX(GcapsSettings::of_sizes(8, 2))
@@ -130,7 +130,6 @@ fn vertiports_in_another_order_get_their_logits_in_that_order() {
             aircraft: &aircraft,
             mask: &[1; 7],
             edges: &[],
-            fleet: &[],
             clock: &[0.0],
         };
         let mut workspace = net.workspace(1);
@@ -165,7 +164,7 @@ fn the_page_names_every_feature_in_its_order() {
 fn features_are_bounded_on_every_network() {
     for day in days() {
         let mut simulation = Simulation::new(Arc::clone(&day));
-        let mut rows = Rows::new(shape(day.vertiports.len()), ExtraInputs::default());
+        let mut rows = Rows::new(shape(day.vertiports.len()), false);
         let mut writer = Writer::default();
         let (mut shortlist, mut prices) = (Shortlist::default(), None);
         while let Some(decision) = simulation.next_decision() {

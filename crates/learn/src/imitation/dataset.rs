@@ -1,4 +1,5 @@
-//! The dataset of imitation: decisions of played days, each with the values of its choices by roll-outs.
+//! The dataset of imitation: decisions of played days, each with the values of its choices by
+//! roll-outs.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -9,16 +10,16 @@ use vertifleet_core::VertiportIx;
 
 use crate::header::shape_of;
 use crate::nn::{Architecture, Inputs, Shape};
-use crate::rows::{ExtraInputs, Rows};
+use crate::rows::{Rows, has_edges};
 use crate::run::checkpoint::tensor;
 
 /// Samples from days with one number of vertiports.
 #[derive(Debug, Clone)]
 pub(crate) struct Samples {
     pub(crate) rows: Rows,
-    /// For each row and vertiport, in the unit of the network's logits: `priced` is the choice's worth at the prices less
-    /// that of the best choice, and `values` is its value by roll-outs less the mean over all choices. Both are 0 for a
-    /// vertiport that cannot be chosen.
+    /// For each row and vertiport, in the unit of the network's logits: `priced` is the choice's
+    /// worth at the prices less that of the best choice, and `values` is its value by roll-outs
+    /// less the mean over all choices. Both are 0 for a vertiport that cannot be chosen.
     pub(crate) priced: Vec<f32>,
     pub(crate) values: Vec<f32>,
 }
@@ -39,8 +40,8 @@ impl Samples {
         Self { rows, priced: Vec::new(), values: Vec::new() }
     }
 
-    /// Adds what the teacher thinks of the decision whose row was added last. `unit_usd` is the unit of the network's
-    /// logits.
+    /// Adds what the teacher thinks of the decision whose row was added last. `unit_usd` is the
+    /// unit of the network's logits.
     pub(crate) fn judge(&mut self, unit_usd: f64, choices: &[LabelledChoice]) {
         let first = self.priced.len();
         self.priced.resize(first + self.rows.vertiports(), 0.0);
@@ -75,10 +76,10 @@ pub(crate) struct Dataset(pub(crate) BTreeMap<usize, Samples>);
 
 /// The most vertiports that a network file may have.
 const MOST_VERTIPORTS: usize = 256;
-/// The tensors that a checkpoint has for the samples of each number of vertiports, which stands before these names. Only
-/// networks that observe edges or the other aircraft have those, and only the features of the paper need masks beside
-/// them.
-const TENSORS: [&str; 7] = ["nodes", "aircraft", "priced", "values", "edges", "masks", "fleet"];
+/// The tensors that a checkpoint has for the samples of each number of vertiports, which stands
+/// before these names. Only
+/// networks that observe edges have those, and only the features of the paper need masks.
+const TENSORS: [&str; 6] = ["nodes", "aircraft", "priced", "values", "edges", "masks"];
 
 /// Whether the features of a policy do not tell which vertiports may be chosen.
 fn has_masks(policy: &Architecture) -> bool {
@@ -112,20 +113,20 @@ impl Dataset {
         }
     }
 
-    /// All samples as a checkpoint stores them. They are stored and not computed again because roll-outs take most of
-    /// a run's time.
+    /// All samples as a checkpoint stores them. They are stored and not computed again because
+    /// roll-outs take most of a run's time.
     pub(crate) fn tensors(
         &self,
         policy: &Architecture,
     ) -> impl Iterator<Item = (String, Cow<'_, [f32]>)> {
         let has_masks = has_masks(policy);
         self.0.iter().flat_map(move |(&vertiports, Samples { rows, priced, values })| {
-            let Inputs { nodes, aircraft, edges, fleet, mask, .. } = rows.inputs();
+            let Inputs { nodes, aircraft, edges, mask, .. } = rows.inputs();
             let masks = mask.iter().filter(|_| has_masks).map(|&open| f32::from(open));
             let masks = Cow::Owned(masks.collect());
-            let [nodes, aircraft, priced, values, edges, fleet] =
-                [nodes, aircraft, priced, values, edges, fleet].map(Cow::Borrowed);
-            let numbers = [nodes, aircraft, priced, values, edges, masks, fleet];
+            let [nodes, aircraft, priced, values, edges] =
+                [nodes, aircraft, priced, values, edges].map(Cow::Borrowed);
+            let numbers = [nodes, aircraft, priced, values, edges, masks];
             let named = TENSORS.iter().map(move |name| tensor_name(vertiports, name)).zip(numbers);
             named.filter(|(_, numbers)| !numbers.is_empty())
         })
@@ -144,8 +145,8 @@ impl Dataset {
 }
 
 impl Samples {
-    /// Reads the samples for one number of vertiports. Memory is allocated only for numbers that the file really
-    /// holds.
+    /// Reads the samples for one number of vertiports. Memory is allocated only for numbers that
+    /// the file really holds.
     fn read(
         file: &SafeTensors<'_>,
         policy: &Architecture,
@@ -158,23 +159,19 @@ impl Samples {
         }
         let shape = shape_of(policy, vertiports);
         let Shape { node_features, aircraft_features, .. } = shape;
-        let [nodes, aircraft, priced, values, edges, masks, fleet] =
+        let [nodes, aircraft, priced, values, edges, masks] =
             TENSORS.map(|name| tensor_name(vertiports, name));
         let numbers = file.tensor(&aircraft).map_err(|error| error.to_string())?.data().len() / 4;
         let rows = numbers / aircraft_features;
         let tensor = |name: &str, entries: usize| tensor(file, name, entries);
         let masks = has_masks(policy).then(|| tensor(&masks, rows * vertiports));
-        let beside = ExtraInputs::of(policy);
-        let [of_edges, of_fleet] = beside.widths(vertiports);
-        let optional = |name: &str, width: usize| {
-            if width == 0 { Ok(Vec::new()) } else { tensor(name, rows * width) }
-        };
+        let edges = has_edges(policy).then(|| tensor(&edges, rows * vertiports * vertiports));
         let samples = Self {
             rows: Rows::of(
-                (shape, beside),
+                shape,
                 tensor(&nodes, rows * vertiports * node_features)?,
                 tensor(&aircraft, rows * aircraft_features)?,
-                [optional(&edges, of_edges)?, optional(&fleet, of_fleet)?],
+                edges.transpose()?,
                 masks.transpose()?.as_deref(),
             ),
             priced: tensor(&priced, rows * vertiports)?,
@@ -188,7 +185,8 @@ impl Samples {
     }
 }
 
-/// The name of a tensor in a checkpoint. It has not changed since the first checkpoints, so they can still be read.
+/// The name of a tensor in a checkpoint. It has not changed since the first checkpoints, so they
+/// can still be read.
 fn tensor_name(vertiports: usize, name: &str) -> String {
     format!("lessons.{vertiports}.{name}")
 }

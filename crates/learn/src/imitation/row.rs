@@ -12,15 +12,18 @@ pub struct ImitationRow {
     pub decisions: u64,
     /// Share of decisions in the last pass for which the network's best choice is the expert's.
     pub agreement: f64,
-    /// By how much the network's choices are better than those at the prices, by the expert's values, in units.
+    /// By how much the network's choices are better than those at the prices, by the expert's
+    /// values, in units.
     pub lift: f64,
     /// By how much the expert's choices are better than those at the prices, in the same units.
     pub most_lift: f64,
     /// Mean reward on the network's validation days.
     pub validation_reward: f64,
-    /// Profit above that of `prices` on the network's validation days, as a share of the profit of `prices`.
+    /// Profit above that of `prices` on the network's validation days, as a share of the profit of
+    /// `prices`.
     pub gain: f64,
-    /// The same gain on the validation days of random networks, if the weights fit networks of any size.
+    /// The same gain on the validation days of random networks, if the weights fit networks of any
+    /// size.
     pub random_gain: Option<f64>,
 }
 

@@ -1,9 +1,9 @@
-//! A training run by imitation. Each round plays days, rolls out the decisions taken there, and learns from all
-//! decisions so far.
+//! A training run by imitation. Each round plays days, rolls out the decisions taken there, and
+//! learns from all decisions so far.
 //!
-//! The policy that plays the days of a round is what the earlier rounds learned; in the first round it is bid prices
-//! alone. A share of the days come from random networks, a different one each ([`World::Random`]); the other
-//! days come from the world that the run is for.
+//! The policy that plays the days of a round is what the earlier rounds learned; in the first round
+//! it is bid prices alone. A share of the days come from random networks, a different one each
+//! ([`World::Random`]); the other days come from the world that the run is for.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -96,7 +96,8 @@ impl ImitationRun {
         })
     }
 
-    /// Plays days, learns, and measures on the validation days. After [`Error::Stopped`], nothing is undone.
+    /// Plays days, learns, and measures on the validation days. After [`Error::Stopped`], nothing
+    /// is undone.
     fn round(&mut self, stop: &Stop, worked: &(dyn Fn(u64) + Sync)) -> Result<ImitationRow, Error> {
         let days = self.days()?;
         let actor = (self.rounds_done() > 0).then(|| Arc::new(self.learner.weights.clone()));
@@ -254,9 +255,9 @@ impl TrainingRun for ImitationRun {
     }
 }
 
-/// Reads the parameters, moments, samples and curve of a checkpoint, and checks that they can be those of this run. Which
-/// days a round plays, and the order in which it meets its samples, follow from the seed and the round's number, so that
-/// nothing else is stored.
+/// Reads the parameters, moments, samples and curve of a checkpoint, and checks that they can be
+/// those of this run. Which days a round plays, and the order in which it meets its samples, follow
+/// from the seed and the round's number, so that nothing else is stored.
 fn read_checkpoint(
     path: &Path,
     identity: &RunIdentity,

@@ -16,16 +16,19 @@ pub struct ImitationSettings {
     pub days: u32,
     /// Share of the days that come from random networks.
     pub random_share: f64,
-    /// About how many decisions of a day are rolled out; on a day with more decisions, a random share of them is.
+    /// About how many decisions of a day are rolled out; on a day with more decisions, a random
+    /// share of them is.
     #[serde(default = "usual_samples")]
     pub samples: u32,
-    /// In so many of the last rounds, the policy itself decides in the roll-outs, and not the prices.
+    /// In so many of the last rounds, the policy itself decides in the roll-outs, and not the
+    /// prices.
     #[serde(default)]
     pub own_rounds: u32,
     /// Number of passes over all samples so far in a round.
     pub passes: u32,
-    /// The run gives the mean of the weights that it began with and those that it learned; this is the weight of the former in
-    /// it, which keeps what they were good at (M. Wortsman and others, *Robust fine-tuning of zero-shot models*, 2022).
+    /// The run gives the mean of the weights that it began with and those that it learned; this is
+    /// the weight of the former in it, which keeps what they were good at (M. Wortsman and others,
+    /// *Robust fine-tuning of zero-shot models*, 2022).
     #[serde(default)]
     pub kept: f64,
     /// Adam's step size; it falls in a straight line to a tenth over the run.

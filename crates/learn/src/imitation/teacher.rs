@@ -1,9 +1,10 @@
-//! The teacher: what a policy that learns by imitation sees of a decision, between which choices it decides, and what
-//! roll-outs say of them.
+//! The teacher: what a policy that learns by imitation sees of a decision, between which choices it
+//! decides, and what roll-outs say of them.
 //!
-//! Roll-outs take most of a run's time, so only the [`Shortlist`](vertifleet_policy::Shortlist) is rolled out. `gcaps-x`
-//! decides between its choices alone. Policies that see no prices decide between all feasible choices. Those that are
-//! not on the shortlist are judged to be below the worst that is, by what they are worth less at the prices.
+//! Roll-outs take most of a run's time, so only the [`Shortlist`](vertifleet_policy::Shortlist) is
+//! rolled out. `gcaps-x` decides between its choices alone. Policies that see no prices decide
+//! between all feasible choices. Those that are not on the shortlist are judged to be below the
+//! worst that is, by what they are worth less at the prices.
 
 use std::sync::Arc;
 
@@ -21,14 +22,15 @@ use crate::imitation::dataset::{LabelledChoice, Samples};
 use crate::learned::Learned;
 use crate::nn::{Architecture, Weights};
 use crate::rollouts::RolloutPlayer;
-use crate::rows::{ExtraInputs, Rows};
+use crate::rows::{Rows, has_edges};
 
 /// Why a learned policy has an answer.
 const CHOOSES: &str = "every decision has a choice";
 
 /// Judges decisions of days with one number of vertiports.
 pub(super) struct Teacher {
-    /// The settings of roll-outs, and what plays them: one by the prices, and one by the policy itself.
+    /// The settings of roll-outs, and what plays them: one by the prices, and one by the policy
+    /// itself.
     settings: RolloutSettings,
     evaluator: RolloutEvaluator,
     player: RolloutPlayer,
@@ -50,7 +52,8 @@ pub(super) enum Student {
     Full(Box<FullPolicy>),
 }
 
-/// A policy without weights: its kind and sizes, and what its features are divided by if they are those of the paper.
+/// A policy without weights: its kind and sizes, and what its features are divided by if they are
+/// those of the paper.
 #[derive(Clone, Copy)]
 pub(super) struct Sees<'a> {
     pub(super) policy: &'a Architecture,
@@ -64,7 +67,7 @@ impl Teacher {
         vertiports: usize,
         settings: RolloutSettings,
     ) -> (Self, Samples) {
-        let rows = Rows::new(shape_of(policy, vertiports), ExtraInputs::of(policy));
+        let rows = Rows::new(shape_of(policy, vertiports), has_edges(policy));
         let writer = match scales {
             Some(scales) => Writer::Paper(scales),
             None if policy.sees_prices() => Writer::Priced(priced::Writer::default()),
@@ -75,9 +78,9 @@ impl Teacher {
         (Self { settings, evaluator, player, writer, judged }, Samples::new(rows))
     }
 
-    /// Adds a decision, with what roll-outs say of its choices, in which `student` decides for every aircraft, or the
-    /// prices do if there is none. `listed` is its shortlist. A decision with nothing at stake teaches nothing and is
-    /// left out.
+    /// Adds a decision, with what roll-outs say of its choices, in which `student` decides for
+    /// every aircraft, or the prices do if there is none. `listed` is its shortlist. A decision
+    /// with nothing at stake teaches nothing and is left out.
     pub(super) fn judge(
         &mut self,
         scene: Scene<'_>,
@@ -161,7 +164,8 @@ impl Student {
         }
     }
 
-    /// The value of each choice of a list if the policy decides for every aircraft afterwards, dollars.
+    /// The value of each choice of a list if the policy decides for every aircraft afterwards,
+    /// dollars.
     fn values_usd<'player>(
         &mut self,
         player: &'player mut RolloutPlayer,

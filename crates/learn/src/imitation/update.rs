@@ -1,16 +1,16 @@
-//! One pass of imitation over the dataset, which moves the probabilities of choices to where the mean worth is
-//! highest.
+//! One pass of imitation over the dataset, which moves the probabilities of choices to where the
+//! mean worth is highest.
 //!
-//! With p the softmax of worth over logits (of the logits alone, for a policy that decides without prices), and A the
-//! value of each choice by roll-outs, the loss of a decision is
+//! With p the softmax of worth over logits (of the logits alone, for a policy that decides without
+//! prices), and A the value of each choice by roll-outs, the loss of a decision is
 //!
 //! ```text
 //! L = -sum over j of p_j A_j  -  entropy_weight H(p)
 //! ```
 //!
-//! Noise in A does not change the mean of this loss, and the loss weighs a decision by what is at stake in it. A
-//! minibatch is cut into chunks of one number of vertiports each, which a fixed number of lanes work through, so the
-//! resulting weights do not depend on the number of threads.
+//! Noise in A does not change the mean of this loss, and the loss weighs a decision by what is at
+//! stake in it. A minibatch is cut into chunks of one number of vertiports each, which a fixed
+//! number of lanes work through, so the resulting weights do not depend on the number of threads.
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -22,10 +22,11 @@ use crate::gcaps_x::scorer::LOGITS_A_UNIT;
 use crate::header::network;
 use crate::imitation::dataset::{Dataset, Samples};
 use crate::nn::{self, Architecture, Gradient, Slopes, Weights, Workspace};
-use crate::rows::{ExtraInputs, Rows};
+use crate::rows::{Rows, has_edges};
 
-/// Vertiports per forward and backward pass: as many as the second-level cache holds. The aircraft of a graph of them
-/// come on top; they are not counted, so that the steps of a run do not depend on whether there is such a graph.
+/// Vertiports per forward and backward pass: as many as the second-level cache holds. The aircraft
+/// of a graph of them come on top; they are not counted, so that the steps of a run do not depend
+/// on whether there is such a graph.
 const CHUNK_NODES: usize = 1_024;
 /// Chunks per step of Adam.
 const CHUNKS_A_STEP: usize = 8;
@@ -37,8 +38,8 @@ const MAX_NORM: f32 = 0.5;
 /// The state and the working memory of learning.
 pub(crate) struct Learner {
     architecture: Architecture,
-    /// The network whose products are derived and whose gradient is completed; neither depends on the number of
-    /// vertiports.
+    /// The network whose products are derived and whose gradient is completed; neither depends on
+    /// the number of vertiports.
     net: nn::NeuralNetwork,
     pub(crate) weights: Weights,
     pub(crate) adam: Adam,
@@ -101,8 +102,8 @@ impl Learner {
         Self { adam, weights: net.weights(params), architecture, net, lanes }
     }
 
-    /// Makes one pass over the dataset, in an order that follows from the seed. Returns the means, with each decision
-    /// measured before the step that learns from it.
+    /// Makes one pass over the dataset, in an order that follows from the seed. Returns the means,
+    /// with each decision measured before the step that learns from it.
     pub(crate) fn pass(
         &mut self,
         dataset: &Dataset,
@@ -168,7 +169,7 @@ impl Lane {
         if sized.as_ref().is_none_or(|(_, _, rows)| rows.vertiports() != vertiports) {
             let net = network(architecture, vertiports);
             let workspace = net.workspace(chunk_rows(vertiports));
-            let rows = Rows::new(samples.rows.shape(), ExtraInputs::of(architecture));
+            let rows = Rows::new(samples.rows.shape(), has_edges(architecture));
             *sized = Some((net, workspace, rows));
         }
         let (net, workspace, chosen) = sized.as_mut().expect("made above");
@@ -200,7 +201,8 @@ impl Lane {
 struct Advice<'a> {
     priced: &'a [f32],
     values: &'a [f32],
-    /// What a unit of worth at the prices adds to a logit: nothing for a policy that decides without prices.
+    /// What a unit of worth at the prices adds to a logit: nothing for a policy that decides
+    /// without prices.
     priced_weight: f32,
 }
 
@@ -294,8 +296,8 @@ mod tests {
     const PRICED: [f32; 4] = [0.0, -0.05, 0.0, -0.2];
     const VALUES: [f32; 4] = [0.04, -0.03, 0.0, -0.01];
 
-    /// The loss of the module's equation in double precision, with A measured in logits; the third vertiport is not on
-    /// the list.
+    /// The loss of the module's equation in double precision, with A measured in logits; the third
+    /// vertiport is not on the list.
     fn loss(logits: &[f32; 4]) -> f64 {
         let whole =
             [0, 1, 3].map(|at| f64::from(logits[at]) + LOGITS_A_UNIT * f64::from(PRICED[at]));

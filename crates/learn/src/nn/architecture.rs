@@ -22,11 +22,12 @@ pub enum Architecture {
     Gcaps(GcapsSettings),
     /// The paper's baseline: plain layers on the flattened features.
     Mlp(MlpSettings),
-    /// The layers of `gcaps` on features whose number does not grow with the network, so no weight depends on the
-    /// network's size.
+    /// The layers of `gcaps` on features whose number does not grow with the network, so no weight
+    /// depends on the network's size.
     #[serde(rename = "gcaps-x")]
     GcapsX(GcapsSettings),
-    /// The layers of `gcaps` on the full observation, which needs no bid prices; no weight depends on the network's size.
+    /// The layers of `gcaps` on the full observation, which needs no bid prices; no weight depends
+    /// on the network's size.
     #[serde(rename = "gcaps-full")]
     GcapsFull(GcapsSettings),
     /// Plain layers on the full observation, flattened.
@@ -47,8 +48,9 @@ pub struct GcapsSettings {
     pub graph: GraphSettings,
 }
 
-/// How a `gcaps` network relates the vertiports to each other, and the aircraft. The default is the paper's (Table 3), on
-/// the complete graph of the vertiports; the others are what it can be compared with.
+/// How a `gcaps` network relates the vertiports to each other, and the aircraft. The default is the
+/// paper's (Table 3), on the complete graph of the vertiports; the others are what it can be
+/// compared with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GraphSettings {
@@ -56,8 +58,8 @@ pub struct GraphSettings {
     pub encoder: EncoderKind,
     /// P, the highest moment of the graph capsules.
     pub moments: usize,
-    /// K, the highest power of the Laplacian; with 0 there is no graph, and with 1 on the complete graph the layers are
-    /// those of deep sets.
+    /// K, the highest power of the Laplacian; with 0 there is no graph, and with 1 on the complete
+    /// graph the layers are those of deep sets.
     pub hops: usize,
     /// `L_e`, the number of layers of the encoder.
     pub layers: usize,
@@ -67,10 +69,6 @@ pub struct GraphSettings {
     pub laplacian: Laplacian,
     /// Whether the decoder attends to the vertiports (Eq. 20); without it, it reads their mean.
     pub attention: bool,
-    /// Whether the decoder's query also reads a graph of the other aircraft, as a later study of the paper's authors has
-    /// one (arXiv:2401.04851). Weight files leave it out where it is false, as those from before it do.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub aircraft_graph: bool,
 }
 
 /// What makes embeddings of the features of vertiports.
@@ -95,7 +93,8 @@ pub enum Adjacency {
     Similarity,
     /// 1 for every pair that the deciding aircraft's type can fly now.
     Reachable,
-    /// The profit per hour of a flight, in hourly profits of a typical full flight, with the passengers who wait now.
+    /// The profit per hour of a flight, in hourly profits of a typical full flight, with the
+    /// passengers who wait now.
     Profit,
 }
 
@@ -146,7 +145,6 @@ impl Default for GraphSettings {
             adjacency: Adjacency::Complete,
             laplacian: Laplacian::Plain,
             attention: true,
-            aircraft_graph: false,
         }
     }
 }
@@ -159,7 +157,7 @@ impl GraphSettings {
 
     /// Whether the encoder is the paper's, whatever the decoder is.
     pub(crate) fn uses_paper_encoder(&self) -> bool {
-        Self { attention: true, aircraft_graph: false, ..*self }.is_of_the_paper()
+        Self { attention: true, ..*self }.is_of_the_paper()
     }
 
     fn adjacency_in_use(&self) -> Adjacency {
@@ -185,7 +183,8 @@ impl GraphSettings {
 }
 
 impl Adjacency {
-    /// Whether the weights come with the observation, and do not follow from the features of the vertiports.
+    /// Whether the weights come with the observation, and do not follow from the features of the
+    /// vertiports.
     pub fn is_observed(self) -> bool {
         matches!(self, Self::Distance | Self::Reachable | Self::Profit)
     }
@@ -199,7 +198,8 @@ impl Default for MlpSettings {
 }
 
 impl Architecture {
-    /// The policy with this name, `gcaps`, `mlp`, `gcaps-x`, `gcaps-full` or `mlp-full`, with its default sizes.
+    /// The policy with this name, `gcaps`, `mlp`, `gcaps-x`, `gcaps-full` or `mlp-full`, with its
+    /// default sizes.
     pub fn named(name: &str) -> Option<Self> {
         match name {
             "gcaps" => Some(Self::Gcaps(GcapsSettings::default())),
@@ -213,23 +213,14 @@ impl Architecture {
         }
     }
 
-    /// What makes vertiports neighbours; every vertiport is that of every other where there is no graph.
+    /// What makes vertiports neighbours; every vertiport is that of every other where there is no
+    /// graph.
     pub fn adjacency(&self) -> Adjacency {
         match self {
             Self::Gcaps(settings) | Self::GcapsX(settings) | Self::GcapsFull(settings) => {
                 settings.graph.adjacency_in_use()
             }
             Self::Mlp(_) | Self::MlpFull(_) => Adjacency::Complete,
-        }
-    }
-
-    /// Whether the network reads a graph of the other aircraft.
-    pub fn has_aircraft_graph(&self) -> bool {
-        match self {
-            Self::Gcaps(settings) | Self::GcapsX(settings) | Self::GcapsFull(settings) => {
-                settings.graph.aircraft_graph
-            }
-            Self::Mlp(_) | Self::MlpFull(_) => false,
         }
     }
 
@@ -248,8 +239,6 @@ impl Architecture {
             Ok(())
         } else if self.adjacency().is_observed() {
             Err(format!("the observation of {name} shows no flights between two other vertiports"))
-        } else if self.has_aircraft_graph() {
-            Err(format!("the observation of {name} shows no other aircraft one by one"))
         } else {
             Ok(())
         }
@@ -260,7 +249,8 @@ impl Architecture {
         matches!(self, Self::GcapsX(_))
     }
 
-    /// Whether the policy's observation shows what the forecast says; that of the paper shows the present alone.
+    /// Whether the policy's observation shows what the forecast says; that of the paper shows the
+    /// present alone.
     pub fn sees_the_forecast(&self) -> bool {
         !matches!(self, Self::Gcaps(_) | Self::Mlp(_))
     }

@@ -1,6 +1,7 @@
 //! The inputs and outputs of a pass, with the rows of a batch side by side.
 
-/// A batch of observations, with the rows side by side. F is the number of node features, G that of aircraft features.
+/// A batch of observations, with the rows side by side. F is the number of node features, G that of
+/// aircraft features.
 #[derive(Debug, Clone, Copy)]
 pub struct Inputs<'a> {
     /// B, the number of decisions.
@@ -11,12 +12,9 @@ pub struct Inputs<'a> {
     pub aircraft: &'a [f32],
     /// [B x N]: 0 where the vertiport may not be chosen. Every row has at least one that may.
     pub mask: &'a [u8],
-    /// Weights of the edges between vertiports [B x N x N], in the direction of flights; empty if the network's graph
-    /// needs none.
+    /// Weights of the edges between vertiports [B x N x N], in the direction of flights; empty if
+    /// the network's graph needs none.
     pub edges: &'a [f32],
-    /// Features of the other aircraft [B x M x H], with M and H as [`AIRCRAFT_SHOWN`](super::AIRCRAFT_SHOWN) and
-    /// [`FLEET_FEATURES`](super::FLEET_FEATURES); empty if the network has no graph of them.
-    pub fleet: &'a [f32],
     /// Share of the day that is left `[B]`; only the value head sees it.
     pub clock: &'a [f32],
 }

@@ -1,14 +1,15 @@
-//! GCAPS (§IV, Eq. 18-21, Table 3): a graph-capsule encoder, an attention decoder, and a value head beside it.
+//! GCAPS (§IV, Eq. 18-21, Table 3): a graph-capsule encoder, an attention decoder, and a value head
+//! beside it.
 //!
-//! The encoder of the paper on the complete graph has a form of its own, which takes a third of the products
-//! ([`encoder`]). All other settings of the graph have encoders that do what they say, product by product.
+//! The encoder of the paper on the complete graph has a form of its own, which takes a third of the
+//! products ([`encoder`]). All other settings of the graph have encoders that do what they say,
+//! product by product.
 
 mod capsule_layers;
 mod decoder;
 mod encoder;
 #[cfg(test)]
 mod encoder_tests;
-mod fleet;
 mod graph;
 #[cfg(test)]
 mod graph_tests;
@@ -19,8 +20,6 @@ mod self_attention;
 use capsule_layers::{CapsuleLayers, CapsuleSpace};
 use decoder::{Capsules, Decoder, DecoderSpace};
 use encoder::{Encoder, EncoderSpace};
-pub use fleet::{AIRCRAFT_SHOWN, FLEET_FEATURES};
-use fleet::{Fleet, FleetSpace};
 use graph::Graph;
 use products::{EncoderProducts, Products};
 use reads::Reads;
@@ -34,7 +33,8 @@ use crate::nn::layout::{Layout, Slot, Tensors};
 use crate::nn::linear::Linear;
 use crate::nn::value_head::ValueHead;
 
-/// The places of the weights of the paper's encoder. Except for `node`, they are used in products only.
+/// The places of the weights of the paper's encoder. Except for `node`, they are used in products
+/// only.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EncoderWeights {
     /// W_0, b_0.
@@ -45,8 +45,8 @@ pub(crate) struct EncoderWeights {
     second: [Slot; 3],
 }
 
-/// The places of the weights that enter products of the decoder. Except for `hidden_bias`, they are used in products
-/// only.
+/// The places of the weights that enter products of the decoder. Except for `hidden_bias`, they are
+/// used in products only.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DecoderWeights {
     /// W_f, b_f: from capsules to embeddings.
@@ -66,8 +66,6 @@ pub(crate) struct Gcaps {
     weights: DecoderWeights,
     products: Products,
     encoder: AnyEncoder,
-    /// The graph of the other aircraft.
-    fleet: Option<Fleet>,
     decoder: Decoder,
 }
 
@@ -91,14 +89,13 @@ enum AnySpace {
 #[derive(Debug)]
 pub(crate) struct GcapsSpace {
     encoder: AnySpace,
-    fleet: Option<FleetSpace>,
     decoder: DecoderSpace,
     capsule_slopes: Vec<f32>,
 }
 
 impl Gcaps {
-    /// Returns the network, the layout of its weights, and the layout of the products behind them. The layout starts
-    /// with the weights that are used in products only; their number comes last.
+    /// Returns the network, the layout of its weights, and the layout of the products behind them.
+    /// The layout starts with the weights that are used in products only; their number comes last.
     pub(crate) fn new(
         settings: &GcapsSettings,
         shape: Shape,
@@ -135,7 +132,6 @@ impl Gcaps {
         } else {
             Ok(general_encoder(&mut layout, settings, shape))
         };
-        let fleet = graph.aircraft_graph.then(|| Fleet::new(&mut layout, width, graph.moments));
         let query =
             Linear::new(&mut layout, "decoder.query", (shape.aircraft_features, width), 1.0);
         let output = layout.matrix("decoder.output.weight", square, plain);
@@ -166,7 +162,7 @@ impl Gcaps {
         let decoder =
             Decoder { reads, query, output, first_norm, feed_forward, second_norm, head, products };
         let encoder = encoder.expect("made above");
-        Ok((Self { weights, products, encoder, fleet, decoder }, layout, behind, folded))
+        Ok((Self { weights, products, encoder, decoder }, layout, behind, folded))
     }
 
     pub(crate) fn space(&self, batch: usize) -> GcapsSpace {
@@ -179,7 +175,6 @@ impl Gcaps {
                 AnyEncoder::Capsules(layers) => AnySpace::Capsules(layers.space(batch)),
                 AnyEncoder::Transformer(layers) => AnySpace::Transformer(layers.space(batch)),
             },
-            fleet: self.fleet.as_ref().map(|fleet| fleet.space(batch)),
             decoder: DecoderSpace::new(&self.decoder, batch),
             capsule_slopes: vec![0.0; batch * vertiports * width],
         }
@@ -210,9 +205,7 @@ impl Gcaps {
     ) {
         self.encoder.forward(tensors, inputs, &mut space.encoder);
         let capsules = self.encoder.read(&space.encoder, inputs.batch);
-        let fleet = self.fleet.as_ref().zip(space.fleet.as_mut());
-        let added = fleet.map(|(fleet, space)| fleet.forward(tensors, inputs, space));
-        self.decoder.forward(tensors, inputs, capsules, added, &mut space.decoder, outputs);
+        self.decoder.forward(tensors, inputs, capsules, &mut space.decoder, outputs);
     }
 
     pub(crate) fn backward(
@@ -228,10 +221,6 @@ impl Gcaps {
         let given = Capsules { values, slopes: capsule_slopes };
         self.decoder.backward(tensors, inputs, given, slopes, &mut space.decoder, gradient);
         self.encoder.backward(tensors, inputs, &mut space.encoder, capsule_slopes, gradient);
-        if let Some((fleet, of_fleet)) = self.fleet.as_ref().zip(space.fleet.as_mut()) {
-            let slopes = space.decoder.query_slopes(inputs.batch, self.decoder.output.columns);
-            fleet.backward(tensors, inputs, slopes, of_fleet, gradient);
-        }
     }
 }
 
@@ -292,7 +281,8 @@ impl AnyEncoder {
         }
     }
 
-    /// Adds the slopes of the encoder's weights. `slopes` are those of what the decoder reads; they are overwritten.
+    /// Adds the slopes of the encoder's weights. `slopes` are those of what the decoder reads; they
+    /// are overwritten.
     fn backward(
         &self,
         tensors: Tensors<'_>,

@@ -1,5 +1,6 @@
-//! First weights, which follow from a seed: uniform, with a variance that keeps signals on one scale (He et al. 2015,
-//! LeCun et al. 1998). No function is used whose last bit differs between machines.
+//! First weights, which follow from a seed: uniform, with a variance that keeps signals on one
+//! scale (He et al. 2015, LeCun et al. 1998). No function is used whose last bit differs between
+//! machines.
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -20,7 +21,8 @@ pub(crate) enum Init {
 
 /// Gain before a rectifier, which loses half of the signal's power.
 pub(crate) const BEFORE_RELU: f32 = std::f32::consts::SQRT_2;
-/// Gain of the last matrix of the logits, as in stable-baselines3: the first policy is nearly uniform.
+/// Gain of the last matrix of the logits, as in stable-baselines3: the first policy is nearly
+/// uniform.
 pub(crate) const LOGITS: f32 = 0.01;
 /// Gain of the last matrix of the value: the first values are near 0.
 pub(crate) const VALUE: f32 = 0.1;

@@ -1,5 +1,5 @@
-//! Layer normalisation (Ba et al. 2016): brings every row to mean 0 and variance 1, then applies a learned scale and
-//! shift.
+//! Layer normalisation (Ba et al. 2016): brings every row to mean 0 and variance 1, then applies a
+//! learned scale and shift.
 
 use crate::nn::init::Init;
 use crate::nn::layout::{Layout, Slot, Tensors};
@@ -15,7 +15,8 @@ pub(crate) struct LayerNorm {
     shift: Slot,
 }
 
-/// What the backward pass needs from the forward pass: the normalised rows and the reciprocals of their spreads.
+/// What the backward pass needs from the forward pass: the normalised rows and the reciprocals of
+/// their spreads.
 #[derive(Debug)]
 pub(crate) struct Normalised {
     rows: Vec<f32>,
@@ -67,7 +68,8 @@ impl LayerNorm {
         }
     }
 
-    /// Adds the slopes of scale and shift, and turns the slopes of the output into those of the input.
+    /// Adds the slopes of scale and shift, and turns the slopes of the output into those of the
+    /// input.
     pub(crate) fn backward(
         self,
         tensors: Tensors<'_>,

@@ -8,7 +8,8 @@ use crate::nn::product::{Matrix, MatrixMut};
 pub struct Tensor {
     /// Its name in weight files.
     pub name: String,
-    /// Its sizes, the slowest index first. A matrix W has shape [inputs, outputs] and is used as `x W`.
+    /// Its sizes, the slowest index first. A matrix W has shape [inputs, outputs] and is used as
+    /// `x W`.
     pub shape: Vec<usize>,
     /// Index of its first entry in the flat vector.
     pub offset: usize,

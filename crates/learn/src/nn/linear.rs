@@ -1,4 +1,5 @@
-//! Linear layers `y = x W + b` on row-major batches, and the arithmetic on rows that goes with them.
+//! Linear layers `y = x W + b` on row-major batches, and the arithmetic on rows that goes with
+//! them.
 
 use crate::nn::init::Init;
 use crate::nn::layout::{Layout, Slot, Tensors};
@@ -86,8 +87,8 @@ pub(crate) fn add_rows(rows: &[f32], to: &mut [f32]) {
     }
 }
 
-/// Sums each group of `group` rows of `width` entries and multiplies the sum by `factor`, giving one row of `to` per
-/// group.
+/// Sums each group of `group` rows of `width` entries and multiplies the sum by `factor`, giving
+/// one row of `to` per group.
 pub(crate) fn sum_groups(rows: &[f32], group: usize, width: usize, factor: f32, to: &mut [f32]) {
     for (rows, to) in rows.chunks_exact(group * width).zip(to.chunks_exact_mut(width)) {
         to.fill(0.0);

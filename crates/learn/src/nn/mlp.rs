@@ -1,4 +1,5 @@
-//! The paper's baseline (§V.B): plain layers on the flattened features, with the same mask and value head as `gcaps`.
+//! The paper's baseline (§V.B): plain layers on the flattened features, with the same mask and
+//! value head as `gcaps`.
 
 use crate::nn::architecture::{MlpSettings, Shape, check_size};
 use crate::nn::batch::{Inputs, Outputs, Slopes};

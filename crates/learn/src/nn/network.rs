@@ -2,7 +2,7 @@
 
 use crate::nn::architecture::{Architecture, Shape, check_size};
 use crate::nn::batch::{Inputs, Outputs, Slopes};
-use crate::nn::gcaps::{AIRCRAFT_SHOWN, FLEET_FEATURES, Gcaps, GcapsSpace};
+use crate::nn::gcaps::{Gcaps, GcapsSpace};
 use crate::nn::init;
 use crate::nn::layout::{Layout, Tensors};
 use crate::nn::mlp::{Mlp, MlpSpace};
@@ -13,7 +13,8 @@ pub struct NeuralNetwork {
     architecture: Architecture,
     shape: Shape,
     layout: Layout,
-    /// Number of weights at the front that are used in products only. Their slopes are not summed over batches.
+    /// Number of weights at the front that are used in products only. Their slopes are not summed
+    /// over batches.
     folded: usize,
     /// Number of entries of all products.
     derived: usize,
@@ -26,15 +27,16 @@ enum Body {
     Mlp(Mlp),
 }
 
-/// The weights of a network with the products derived from them. Both change together, in [`NeuralNetwork::update`].
+/// The weights of a network with the products derived from them. Both change together, in
+/// [`NeuralNetwork::update`].
 #[derive(Debug, Clone)]
 pub struct Weights {
     params: Vec<f32>,
     products: Vec<f32>,
 }
 
-/// The working memory of passes over batches up to a largest size. A backward pass reads what the forward pass before
-/// it left here.
+/// The working memory of passes over batches up to a largest size. A backward pass reads what the
+/// forward pass before it left here.
 #[derive(Debug)]
 pub struct Workspace {
     most: usize,
@@ -62,7 +64,8 @@ impl NeuralNetwork {
     /// The network with these sizes.
     ///
     /// # Errors
-    /// Returns an error if a size is 0 or absurdly large, or if sizes do not fit together; the message says which.
+    /// Returns an error if a size is 0 or absurdly large, or if sizes do not fit together; the
+    /// message says which.
     pub fn new(architecture: Architecture, shape: Shape) -> Result<Self, String> {
         check_size("vertiports", shape.vertiports)?;
         check_size("node_features", shape.node_features)?;
@@ -148,7 +151,8 @@ impl NeuralNetwork {
     /// Computes the logits and values of a batch and leaves them in the workspace.
     ///
     /// # Panics
-    /// Panics if the batch is larger than the workspace, or if an argument has another network's shape.
+    /// Panics if the batch is larger than the workspace, or if an argument has another network's
+    /// shape.
     pub fn forward(&self, weights: &Weights, inputs: Inputs<'_>, workspace: &mut Workspace) {
         self.check(inputs, workspace);
         let tensors = self.tensors(weights);
@@ -165,10 +169,12 @@ impl NeuralNetwork {
         }
     }
 
-    /// Adds the gradient of a loss with these slopes. The batch must be that of the latest [`forward`](Self::forward).
+    /// Adds the gradient of a loss with these slopes. The batch must be that of the latest
+    /// [`forward`](Self::forward).
     ///
     /// # Panics
-    /// Panics if an argument has another network's shape, or if the batch has another size than the latest.
+    /// Panics if an argument has another network's shape, or if the batch has another size than the
+    /// latest.
     pub fn backward(
         &self,
         weights: &Weights,
@@ -194,8 +200,8 @@ impl NeuralNetwork {
         }
     }
 
-    /// Completes a summed gradient and returns the slopes of the weights, in the order of the layout. Call it once per
-    /// sum: the gradient must be cleared before it is added to again.
+    /// Completes a summed gradient and returns the slopes of the weights, in the order of the
+    /// layout. Call it once per sum: the gradient must be cleared before it is added to again.
     ///
     /// # Panics
     /// Panics if an argument belongs to another network.
@@ -239,10 +245,6 @@ impl NeuralNetwork {
         if self.architecture.adjacency().is_observed() {
             assert_eq!(inputs.edges.len(), batch * vertiports * vertiports, "edges of the batch");
         }
-        if self.architecture.has_aircraft_graph() {
-            let numbers = batch * AIRCRAFT_SHOWN * FLEET_FEATURES;
-            assert_eq!(inputs.fleet.len(), numbers, "other aircraft of the batch");
-        }
     }
 }
 
@@ -271,8 +273,8 @@ impl Gradient {
         self.sums_mut().fill(0.0);
     }
 
-    /// The sums over batches, so that gradients can be added up; only [`NeuralNetwork::finish`] turns them into
-    /// slopes.
+    /// The sums over batches, so that gradients can be added up; only [`NeuralNetwork::finish`]
+    /// turns them into slopes.
     pub fn sums(&self) -> &[f32] {
         &self.slopes[self.folded..]
     }

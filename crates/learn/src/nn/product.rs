@@ -1,9 +1,10 @@
-//! Matrix products over checked slices. This is the only module that calls the matrix-product crate, and therefore the
-//! only one with `unsafe` code.
+//! Matrix products over checked slices. This is the only module that calls the matrix-product
+//! crate, and therefore the only one with `unsafe` code.
 //!
-//! `gemm-f32` chooses its kernel by the CPU at run time, so one build runs everywhere, and a given machine always
-//! computes the same bits. `gemm` forwards to it, and builds kernels for complex and double numbers besides. `faer`,
-//! which needs no `unsafe`, was 3 to 15 % slower on the largest products here.
+//! `gemm-f32` chooses its kernel by the CPU at run time, so one build runs everywhere, and a given
+//! machine always computes the same bits. `gemm` forwards to it, and builds kernels for complex and
+//! double numbers besides. `faer`, which needs no `unsafe`, was 3 to 15 % slower on the largest
+//! products here.
 
 #![expect(
     unsafe_code,
@@ -27,8 +28,8 @@ pub(crate) struct Matrix<'a> {
 /// A matrix to write to, whose rows follow one another, `row_step` apart.
 #[derive(Debug)]
 pub(crate) struct MatrixMut<'a> {
-    // Invariant: the largest index of an entry is inside the slice, and `columns <= row_step`, so no two entries share
-    // a place.
+    // Invariant: the largest index of an entry is inside the slice, and `columns <= row_step`, so
+    // no two entries share a place.
     entries: &'a mut [f32],
     rows: usize,
     columns: usize,
@@ -108,8 +109,8 @@ pub(crate) fn multiply(to: MatrixMut<'_>, write: Write, left: Matrix<'_>, right:
     assert_eq!((left.rows, right.columns), (rows, columns), "sizes of a product and its factors");
     assert_eq!(inner, right.rows, "inner sizes of a product");
     let factor = if write == Write::Subtract { -1.0 } else { 1.0 };
-    // The kernels write columns. A matrix with more than one column therefore is written as its transpose, which is the
-    // product of the transposed factors in the other order.
+    // The kernels write columns. A matrix with more than one column therefore is written as its
+    // transpose, which is the product of the transposed factors in the other order.
     let (rows, columns, steps, left, right) = if row_step > 1 {
         (columns, rows, (row_step, 1), right.transposed(), left.transposed())
     } else {
@@ -117,8 +118,9 @@ pub(crate) fn multiply(to: MatrixMut<'_>, write: Write, left: Matrix<'_>, right:
     };
     // A slice is at most isize::MAX bytes long, and a step that is used is shorter than its slice.
     let step = |step: usize| isize::try_from(step).expect("a step inside a slice");
-    // SAFETY: the two readable matrices and the writable one have their largest index inside their slices (checked by
-    // the constructors), the writable one is borrowed exclusively and its entries do not overlap, and the sizes agree.
+    // SAFETY: the two readable matrices and the writable one have their largest index inside their
+    // slices (checked by the constructors), the writable one is borrowed exclusively and its
+    // entries do not overlap, and the sizes agree.
     unsafe {
         get_gemm_fn()(
             rows,

@@ -1,8 +1,9 @@
 //! Checks slopes against finite differences: every layer by itself, then both networks as a whole.
 //!
-//! A layer is checked with the loss `sum of outputs times fixed numbers`, entry by entry, by central differences.
-//! Single precision leaves about three digits. That is enough: an error in a derivative is seldom so small, and the
-//! comparison with PyTorch's stored values checks the whole networks to five digits.
+//! A layer is checked with the loss `sum of outputs times fixed numbers`, entry by entry, by
+//! central differences. Single precision leaves about three digits. That is enough: an error in a
+//! derivative is seldom so small, and the comparison with PyTorch's stored values checks the whole
+//! networks to five digits.
 
 use crate::nn::batch::{Inputs, Slopes};
 use crate::nn::gcaps::reads::Reads;
@@ -13,9 +14,7 @@ use crate::nn::linear::Linear;
 use crate::nn::network::NeuralNetwork;
 use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 use crate::nn::value_head::ValueHead;
-use crate::nn::{
-    AIRCRAFT_SHOWN, Architecture, FLEET_FEATURES, GcapsSettings, MlpSettings, Shape, relu,
-};
+use crate::nn::{Architecture, GcapsSettings, MlpSettings, Shape, relu};
 
 const STEP: f32 = 4e-3;
 
@@ -34,8 +33,9 @@ pub(crate) fn weighted(outputs: &[f32], weights: &[f32]) -> f64 {
         .sum()
 }
 
-/// Checks the slopes of a loss in every `stride`-th entry of `at`. An entry that moves a rectifier across its kink has
-/// different slopes on its two sides; such entries are left out, and must be few.
+/// Checks the slopes of a loss in every `stride`-th entry of `at`. An entry that moves a rectifier
+/// across its kink has different slopes on its two sides; such entries are left out, and must be
+/// few.
 pub(crate) fn check(
     what: &str,
     at: &[f32],
@@ -60,7 +60,8 @@ pub(crate) fn check(
         let slope = f64::from(slopes[entry]);
         let tolerance = 2e-3 * expected.abs().max(1.0);
         checked += 1;
-        // Where the loss is smooth, halving the step halves the difference of the two sides, and their mean stays.
+        // Where the loss is smooth, halving the step halves the difference of the two sides, and
+        // their mean stays.
         let bend = (right - left) - 2.0 * (nearer_right - nearer_left);
         let drift = f64::midpoint(right, left) - expected;
         if bend.abs().max(drift.abs()) > tolerance {
@@ -144,7 +145,8 @@ fn value_head() {
     let (mut gradient, mut slopes) = (vec![0.0; params.len()], vec![0.0; sums.len()]);
     head.backward(tensors(&params), &clock, &hidden, &weights, &mut slopes, &mut gradient);
     check("sums", &sums, &slopes, 1, |sums| weighted(&forward(&params, sums).1, &weights));
-    // The rows for features and the bias act on the sums, which the caller computes, so their slopes are the caller's.
+    // The rows for features and the bias act on the sums, which the caller computes, so their
+    // slopes are the caller's.
     for slot in [head.features(), head.hidden_bias] {
         assert!(
             slot.part(&gradient).iter().all(|slope| *slope == 0.0),
@@ -162,7 +164,8 @@ fn value_head() {
     }
 }
 
-/// Queries, pointers, what is collected, means and logits are all checked as functions of capsules and queries.
+/// Queries, pointers, what is collected, means and logits are all checked as functions of capsules
+/// and queries.
 #[test]
 fn attention_pointer_and_means() {
     let reads = Reads {
@@ -246,7 +249,8 @@ pub(crate) fn check_network(architecture: Architecture, seed: u64, size: f32) {
     let shape = Shape { vertiports: 5, node_features: 14, aircraft_features: 12 };
     let batch = 2;
     let net = NeuralNetwork::new(architecture, shape).expect("sizes that fit");
-    // The first weights of logits and value are small on purpose; here they are enlarged so that all of them matter.
+    // The first weights of logits and value are small on purpose; here they are enlarged so that
+    // all of them matter.
     let mut params = net.init(seed);
     for tensor in net.layout().tensors() {
         let part = &mut params[tensor.offset..][..tensor.len()];
@@ -262,14 +266,12 @@ pub(crate) fn check_network(architecture: Architecture, seed: u64, size: f32) {
         draws.iter().enumerate().map(|(at, x)| u8::from(*x > -0.2 || at % 5 == 0)).collect();
     let edges: Vec<f32> =
         numbers(batch * 5 * 5, seed + 8).iter().map(|weight| weight.max(0.0)).collect();
-    let fleet = numbers(batch * AIRCRAFT_SHOWN * FLEET_FEATURES, seed + 9);
     let inputs = Inputs {
         batch,
         nodes: &nodes,
         aircraft: &aircraft,
         mask: &mask,
         edges: &edges,
-        fleet: &fleet,
         clock: &clock,
     };
     let (of_logits, of_values) = (numbers(batch * 5, seed + 6), numbers(batch, seed + 7));
@@ -305,7 +307,8 @@ pub(crate) fn check_network(architecture: Architecture, seed: u64, size: f32) {
 
 #[test]
 fn gcaps_whole() {
-    // With seed 30 half of the biases move a rectifier across its kink, so that it depends on the machine whether they are few.
+    // With seed 30 half of the biases move a rectifier across its kink, so that it depends on the
+    // machine whether they are few.
     for seed in [10, 20, 50] {
         check_network(Architecture::Gcaps(GcapsSettings::of_sizes(16, 4)), seed, 1.0);
     }

@@ -1,6 +1,6 @@
-//! The value head that both networks share: v = w2 . ReLU(z + clock c + b1) + b2, where z is what the network adds to
-//! the head's hidden layer. The clock (share of the day that is left) enters here only; no choice depends on it
-//! directly.
+//! The value head that both networks share: v = w2 . ReLU(z + clock c + b1) + b2, where z is what
+//! the network adds to the head's hidden layer. The clock (share of the day that is left) enters
+//! here only; no choice depends on it directly.
 
 use crate::nn::init::{BEFORE_RELU, Init, VALUE};
 use crate::nn::layout::{Layout, Slot, Tensors};
@@ -18,8 +18,9 @@ pub(crate) struct ValueHead {
 }
 
 impl ValueHead {
-    /// Adds the head's tensors. Its hidden layer takes `inputs` features and the clock from here; together with what
-    /// the network adds it has `inputs_in_all` inputs, which sets the scale of its first weights.
+    /// Adds the head's tensors. Its hidden layer takes `inputs` features and the clock from here;
+    /// together with what the network adds it has `inputs_in_all` inputs, which sets the scale of
+    /// its first weights.
     pub(crate) fn new(
         layout: &mut Layout,
         inputs: usize,
@@ -65,7 +66,8 @@ impl ValueHead {
         }
     }
 
-    /// Adds the slopes of the clock's row, the output and its bias, and writes those of the hidden layer's sums.
+    /// Adds the slopes of the clock's row, the output and its bias, and writes those of the hidden
+    /// layer's sums.
     pub(crate) fn backward(
         self,
         tensors: Tensors<'_>,

@@ -1,9 +1,11 @@
-//! Generalised advantage estimation (Schulman et al. 2016), for consecutive decisions of one environment.
+//! Generalised advantage estimation (Schulman et al. 2016), for consecutive decisions of one
+//! environment.
 
 /// Fills `advantages` for consecutive decisions of one environment.
 ///
-/// `values[t]` is the value estimated before decision `t`, and `last_value` the one after the last decision.
-/// `day_ends[t]` says that the day was over after decision `t`, so nothing after it counts.
+/// `values[t]` is the value estimated before decision `t`, and `last_value` the one after the last
+/// decision. `day_ends[t]` says that the day was over after decision `t`, so nothing after it
+/// counts.
 pub(crate) fn estimate(
     rewards: &[f32],
     values: &[f32],

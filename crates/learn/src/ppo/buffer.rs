@@ -1,8 +1,10 @@
-//! The buffer that PPO learns from: the current policy plays many days side by side, and every decision is recorded.
+//! The buffer that PPO learns from: the current policy plays many days side by side, and every
+//! decision is recorded.
 //!
-//! Days are split into groups of fixed size. A group plays in lockstep, with one inference per step for all of its
-//! days, and groups play in parallel. All randomness is a function of run seed, day and decision, so nothing depends
-//! on the number of threads, and a checkpoint can store a day in progress by its number and its choices alone.
+//! Days are split into groups of fixed size. A group plays in lockstep, with one inference per step
+//! for all of its days, and groups play in parallel. All randomness is a function of run seed, day
+//! and decision, so nothing depends on the number of threads, and a checkpoint can store a day in
+//! progress by its number and its choices alone.
 
 use std::sync::Arc;
 
@@ -17,7 +19,8 @@ use crate::features::{Observations, Scales};
 use crate::nn::{self, Weights, Workspace};
 use crate::ppo::PpoSettings;
 
-/// Number of days that share one inference: large enough for the matrix products, small enough for the cache.
+/// Number of days that share one inference: large enough for the matrix products, small enough for
+/// the cache.
 const GROUP: usize = 32;
 
 /// The source of training days and of the randomness of choices.
@@ -106,7 +109,8 @@ pub(crate) struct Group {
     finished: Vec<f64>,
 }
 
-/// All days of a training run that are being played, and the decisions recorded since the last update.
+/// All days of a training run that are being played, and the decisions recorded since the last
+/// update.
 pub(crate) struct Buffer {
     scales: Scales,
     settings: PpoSettings,
@@ -142,7 +146,8 @@ impl Buffer {
         Ok(Self { scales, settings: settings.clone(), groups })
     }
 
-    /// Plays `n_steps` decisions of every day. Returns the rewards of the days that ended, in a fixed order.
+    /// Plays `n_steps` decisions of every day. Returns the rewards of the days that ended, in a
+    /// fixed order.
     pub(crate) fn collect(
         &mut self,
         source: &Source,
@@ -162,7 +167,8 @@ impl Buffer {
         self.groups.iter().flat_map(|group| &group.days).map(|day| day.progress.clone()).collect()
     }
 
-    /// Finds a decision that is counted over the whole buffer: its group's experience and its row there.
+    /// Finds a decision that is counted over the whole buffer: its group's experience and its row
+    /// there.
     pub(crate) fn locate(&self, decision: usize) -> (&Experience, usize) {
         let rows = GROUP * self.settings.n_steps;
         (&self.groups[decision / rows].experience, decision % rows)
@@ -256,8 +262,9 @@ impl Group {
     }
 }
 
-/// Draws from the softmax of the logits with `uniform`, a number in [0, 1). Returns the choice and the logarithm of
-/// its probability. Masked vertiports have a logit of minus infinity, so their probability is 0.
+/// Draws from the softmax of the logits with `uniform`, a number in [0, 1). Returns the choice and
+/// the logarithm of its probability. Masked vertiports have a logit of minus infinity, so their
+/// probability is 0.
 fn sample(logits: &[f32], uniform: f32) -> (VertiportIx, f32) {
     let highest = logits.iter().copied().fold(f32::NEG_INFINITY, f32::max);
     let total: f32 = logits.iter().map(|logit| (logit - highest).exp()).sum();
@@ -273,7 +280,8 @@ fn sample(logits: &[f32], uniform: f32) -> (VertiportIx, f32) {
             left -= weight;
         }
     }
-    // Rounding may leave a small remainder after the last weight; then the last vertiport with any weight is chosen.
+    // Rounding may leave a small remainder after the last weight; then the last vertiport with any
+    // weight is chosen.
     let at = chosen.expect("hold is always feasible");
     (VertiportIx::new(at), logits[at] - highest - total.ln())
 }
@@ -300,8 +308,8 @@ mod tests {
         Source { world: Arc::new(network).into(), run_seed: 5 }
     }
 
-    /// The rewards of one day's first 600 decisions, which are more than a day has, and the index at which the day
-    /// ends.
+    /// The rewards of one day's first 600 decisions, which are more than a day has, and the index
+    /// at which the day ends.
     fn rewards(reward: Reward) -> (Vec<f32>, usize) {
         let source = source();
         let mut settings = PpoSettings::tuned();

@@ -11,10 +11,11 @@ pub struct PpoRow {
     pub steps: u64,
     /// Number of days finished.
     pub days: u64,
-    /// Mean reward of the last 100 days finished, with choices drawn from the policy; `None` before the first day is
-    /// over.
+    /// Mean reward of the last 100 days finished, with choices drawn from the policy; `None` before
+    /// the first day is over.
     pub mean_reward: Option<f64>,
-    /// Mean reward on the validation days, with the best choices only, if it was measured after this update.
+    /// Mean reward on the validation days, with the best choices only, if it was measured after
+    /// this update.
     pub validation_reward: Option<f64>,
     /// Mean clipped surrogate loss of the last epoch.
     pub policy_loss: f64,

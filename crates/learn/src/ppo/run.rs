@@ -1,5 +1,5 @@
-//! A training run by PPO: collects decisions, updates the weights, measures on the validation days, and keeps the
-//! weights that did best there.
+//! A training run by PPO: collects decisions, updates the weights, measures on the validation days,
+//! and keeps the weights that did best there.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -214,7 +214,8 @@ impl TrainingRun for PpoRun {
     }
 }
 
-/// Reads the parameters, moments and progress of a checkpoint, and checks that they can be those of this run.
+/// Reads the parameters, moments and progress of a checkpoint, and checks that they can be those of
+/// this run.
 fn read_checkpoint(
     path: &Path,
     identity: &RunIdentity,

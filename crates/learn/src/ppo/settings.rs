@@ -12,17 +12,19 @@ use crate::settings::within;
 pub enum Reward {
     /// All of it at the end of the day, as in the paper.
     Terminal,
-    /// The share of each flight when it is decided, and what the day costs anyway at the end; over a day this adds up to
-    /// the same total.
+    /// The share of each flight when it is decided, and what the day costs anyway at the end; over
+    /// a day this adds up to the same total.
     Dense,
 }
 
 impl Reward {
-    /// The reward of a decision, given its outcome and the day after it; `over` says whether it was the day's last.
+    /// The reward of a decision, given its outcome and the day after it; `over` says whether it was
+    /// the day's last.
     pub fn of(self, outcome: &TraceRow, day: &Simulation, over: bool) -> f64 {
         match self {
             Self::Dense => {
-                // What the day costs anyway belongs to no flight; it is charged with the last decision.
+                // What the day costs anyway belongs to no flight; it is charged with the last
+                // decision.
                 let fixed_usd = if over { day.ledger().fixed_cost_usd() } else { 0.0 };
                 share(outcome.profit_usd() - fixed_usd, day.potential_usd())
             }
@@ -47,7 +49,8 @@ pub enum LearningRateSchedule {
     Linear,
 }
 
-/// The settings of training by PPO. Names and meanings are those of stable-baselines3 where it has such a setting.
+/// The settings of training by PPO. Names and meanings are those of stable-baselines3 where it has
+/// such a setting.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PpoSettings {
@@ -55,8 +58,8 @@ pub struct PpoSettings {
     pub total_steps: u64,
     /// Number of days that are played side by side.
     pub n_envs: usize,
-    /// Number of decisions taken on each of those days between two updates. The roll-out buffer holds `n_envs *
-    /// n_steps`.
+    /// Number of decisions taken on each of those days between two updates. The roll-out buffer
+    /// holds `n_envs * n_steps`.
     pub n_steps: usize,
     /// Number of decisions per gradient step.
     pub batch_size: usize,
@@ -82,15 +85,16 @@ pub struct PpoSettings {
     pub reward: Reward,
     /// The reward is multiplied by this constant before learning; reports show the reward itself.
     pub reward_scale: f32,
-    /// Number of updates between two measurements on the validation days; the weights that did best there are kept.
+    /// Number of updates between two measurements on the validation days; the weights that did best
+    /// there are kept.
     pub eval_every: u32,
     /// Number of validation days.
     pub eval_days: u32,
 }
 
 impl PpoSettings {
-    /// Exactly Table 2. Where the paper is silent, these are stable-baselines3's defaults, except for γ = 1, which a
-    /// reward at the end of the day requires.
+    /// Exactly Table 2. Where the paper is silent, these are stable-baselines3's defaults, except
+    /// for γ = 1, which a reward at the end of the day requires.
     pub fn paper() -> Self {
         Self {
             total_steps: 2_000_000,
@@ -113,7 +117,8 @@ impl PpoSettings {
         }
     }
 
-    /// The default preset, tuned on validation days for the best policy within a quarter of an hour on two cores.
+    /// The default preset, tuned on validation days for the best policy within a quarter of an hour
+    /// on two cores.
     pub fn tuned() -> Self {
         Self {
             total_steps: 3_000_000,

@@ -1,16 +1,16 @@
-//! Proximal policy optimisation (Schulman et al. 2017), in which every setting means what it means in
-//! stable-baselines3.
+//! Proximal policy optimisation (Schulman et al. 2017), in which every setting means what it means
+//! in stable-baselines3.
 //!
-//! An update estimates advantages on the collected decisions, then passes over them `n_epochs` times in shuffled
-//! minibatches, each of which is one step of Adam on
+//! An update estimates advantages on the collected decisions, then passes over them `n_epochs`
+//! times in shuffled minibatches, each of which is one step of Adam on
 //!
 //! ```text
 //! L = -mean min(r A, clip(r, 1 - ε, 1 + ε) A)  +  vf_coef mean (V - R)²  -  ent_coef mean H
 //! ```
 //!
-//! where r is the probability of the choice now over its probability when it was made. A minibatch is cut into chunks
-//! of fixed size that a fixed number of lanes work through; lanes are added up in order, so the resulting weights do
-//! not depend on the number of threads.
+//! where r is the probability of the choice now over its probability when it was made. A minibatch
+//! is cut into chunks of fixed size that a fixed number of lanes work through; lanes are added up
+//! in order, so the resulting weights do not depend on the number of threads.
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -28,12 +28,12 @@ use crate::ppo::{PpoSettings, advantage};
 
 /// Decisions per forward and backward pass: as many as the second-level cache holds.
 const CHUNK: usize = 128;
-/// Number of gradients that are filled side by side and then added up. More would cost memory; fewer would leave
-/// threads idle.
+/// Number of gradients that are filled side by side and then added up. More would cost memory;
+/// fewer would leave threads idle.
 const LANES: usize = 8;
 
-/// Means over the minibatches of the last epoch, when the update is nearly done. (stable-baselines3 logs means over
-/// all epochs, except for the divergence.)
+/// Means over the minibatches of the last epoch, when the update is nearly done. (stable-baselines3
+/// logs means over all epochs, except for the divergence.)
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Losses {
     pub(crate) policy_loss: f64,
@@ -61,8 +61,8 @@ struct Sample {
     target_return: f32,
 }
 
-/// The working memory of a lane: the features of a chunk, the workspace of the network, and the lane's sum of
-/// gradients.
+/// The working memory of a lane: the features of a chunk, the workspace of the network, and the
+/// lane's sum of gradients.
 struct Lane {
     observations: Observations,
     workspace: Workspace,
@@ -110,11 +110,12 @@ impl Ppo {
         }
     }
 
-    /// Makes one update on the decisions of a buffer. After every minibatch, `watch` is called with the share of the
-    /// update that is done.
+    /// Makes one update on the decisions of a buffer. After every minibatch, `watch` is called with
+    /// the share of the update that is done.
     ///
     /// # Errors
-    /// Returns the error that `watch` returns; the weights then stay as they are, in the middle of the update.
+    /// Returns the error that `watch` returns; the weights then stay as they are, in the middle of
+    /// the update.
     pub(crate) fn update(
         &mut self,
         net: &nn::NeuralNetwork,
@@ -273,7 +274,8 @@ impl Lane {
     }
 }
 
-/// The loss of one decision. `logit_slopes` receives its gradient times `weight` (one over the size of the minibatch).
+/// The loss of one decision. `logit_slopes` receives its gradient times `weight` (one over the size
+/// of the minibatch).
 fn decision_loss(
     logits: &[f32],
     value: f32,
@@ -332,7 +334,8 @@ impl AdvantageNorm {
         let count = decisions.len() as f64;
         let mean = decisions.iter().map(|&at| f64::from(advantages[at])).sum::<f64>() / count;
         if decisions.len() < 2 {
-            // As in stable-baselines3, a single decision is not normalised, because it has no spread.
+            // As in stable-baselines3, a single decision is not normalised, because it has no
+            // spread.
             return Self { mean: 0.0, spread: 1.0 };
         }
         let squares = decisions.iter().map(|&at| (f64::from(advantages[at]) - mean).powi(2));

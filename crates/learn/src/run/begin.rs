@@ -1,5 +1,5 @@
-//! What runs have in common before they learn: the sizes of what a policy sees, and, for imitation and evolution, the days
-//! that a round learns from.
+//! What runs have in common before they learn: the sizes of what a policy sees, and, for imitation
+//! and evolution, the days that a round learns from.
 
 use std::sync::Arc;
 
@@ -13,14 +13,16 @@ use crate::run::TrainingRequest;
 /// The policy of a run before it has learned anything.
 pub(crate) struct Begin {
     pub(crate) net: nn::NeuralNetwork,
-    /// The number of vertiports that `net` is for. Weights that fit any size have the same shapes for every number.
+    /// The number of vertiports that `net` is for. Weights that fit any size have the same shapes
+    /// for every number.
     pub(crate) vertiports: usize,
     /// The header of the run's models, except for the number of steps.
     pub(crate) header: Header,
 }
 
 impl Begin {
-    /// The beginning of a run that learns from days of random networks too, as large a share of all as `random_share`.
+    /// The beginning of a run that learns from days of random networks too, as large a share of all
+    /// as `random_share`.
     ///
     /// # Errors
     /// [`Error::BadSetting`] if policy, world and share do not go together.
@@ -49,8 +51,9 @@ impl Begin {
     }
 }
 
-/// The training days of a round or a generation, given as its number, counted from 0, and its number of days. A share of
-/// them come from random networks and [`random_city`], by turns and a different one each, and the others from a world.
+/// The training days of a round or a generation, given as its number, counted from 0, and its
+/// number of days. A share of them come from random networks and [`random_city`], by turns and a
+/// different one each, and the others from a world.
 pub(crate) fn training_days(
     world: &World,
     run_seed: u32,

@@ -1,8 +1,8 @@
 //! Checkpoints: everything that a run needs to continue bit for bit, in one safetensors file.
 //!
-//! Randomness is a function of seed, day and decision, so there is no generator to store. This module writes what all
-//! ways to learn have: the identity of the run, the parameters and Adam's moments. Each way adds its own
-//! [progress](Checkpoint::progress) and tensors.
+//! Randomness is a function of seed, day and decision, so there is no generator to store. This
+//! module writes what all ways to learn have: the identity of the run, the parameters and Adam's
+//! moments. Each way adds its own [progress](Checkpoint::progress) and tensors.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -46,7 +46,8 @@ struct Header<'a, Progress> {
     progress: &'a Progress,
 }
 
-/// Writes a checkpoint, whole or not at all; `others` are the additional tensors of the way to learn.
+/// Writes a checkpoint, whole or not at all; `others` are the additional tensors of the way to
+/// learn.
 pub(crate) fn write<'a>(
     path: &Path,
     run: &RunIdentity,

@@ -1,5 +1,6 @@
-//! Learning curves, with one row for an update of PPO, a round of imitation or a generation of evolution. They are CSV files beside the weights
-//! of their run; curves of runs with other seeds may stand there too.
+//! Learning curves, with one row for an update of PPO, a round of imitation or a generation of
+//! evolution. They are CSV files beside the weights of their run; curves of runs with other seeds
+//! may stand there too.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,8 +28,8 @@ pub enum Curve {
 }
 
 impl Curve {
-    /// The path at which `train` writes the learning curve of these weights: `gcaps-curve.csv` beside
-    /// `gcaps.safetensors`.
+    /// The path at which `train` writes the learning curve of these weights: `gcaps-curve.csv`
+    /// beside `gcaps.safetensors`.
     pub fn beside(weights: &Path) -> PathBuf {
         weights.with_file_name(format!("{}-curve.csv", name(weights)))
     }
@@ -97,8 +98,9 @@ impl Curve {
         }
     }
 
-    /// Number of decisions learned from, and mean reward of the last training days; empty for imitation, which does
-    /// not learn from rewards, and for evolution, whose training days are played with moved weights.
+    /// Number of decisions learned from, and mean reward of the last training days; empty for
+    /// imitation, which does not learn from rewards, and for evolution, whose training days are
+    /// played with moved weights.
     pub fn training_rewards(&self) -> Vec<(u64, f64)> {
         match self {
             Self::Ppo(rows) => {
@@ -108,7 +110,8 @@ impl Curve {
         }
     }
 
-    /// Number of decisions learned from, and mean reward on the validation days, for the rows that measured it.
+    /// Number of decisions learned from, and mean reward on the validation days, for the rows that
+    /// measured it.
     pub fn validation_rewards(&self) -> Vec<(u64, f64)> {
         match self {
             Self::Ppo(rows) => {

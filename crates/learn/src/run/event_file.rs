@@ -12,10 +12,11 @@ const PREFIX: &str = "events.out.tfevents.";
 /// The names of the event files end with this.
 const SUFFIX: &str = ".vertifleet";
 
-/// A TensorBoard event file: records of protocol-buffer messages, each framed by its length and two checksums.
+/// A TensorBoard event file: records of protocol-buffer messages, each framed by its length and two
+/// checksums.
 ///
-/// The format is small and fixed, and the crates that write it depend on a whole protocol-buffer compiler, so the
-/// three messages that are needed are written here by hand.
+/// The format is small and fixed, and the crates that write it depend on a whole protocol-buffer
+/// compiler, so the three messages that are needed are written here by hand.
 #[derive(Debug)]
 pub(crate) struct EventFile {
     file: File,
@@ -23,13 +24,14 @@ pub(crate) struct EventFile {
 }
 
 impl EventFile {
-    /// Creates an event file in `folder`, which is created if it does not exist; the file is named after the time at
-    /// which it is begun. It begins with the rows that the run has already, `so_far`, and replaces the run's earlier
-    /// event files: a run that was killed may have written rows that its checkpoint does not have, and TensorBoard
-    /// would show them twice.
+    /// Creates an event file in `folder`, which is created if it does not exist; the file is named
+    /// after the time at which it is begun. It begins with the rows that the run has already,
+    /// `so_far`, and replaces the run's earlier event files: a run that was killed may have written
+    /// rows that its checkpoint does not have, and TensorBoard would show them twice.
     ///
     /// # Errors
-    /// Returns an error if the file exists already or cannot be written, or if an earlier one cannot be removed.
+    /// Returns an error if the file exists already or cannot be written, or if an earlier one
+    /// cannot be removed.
     pub(crate) fn create(folder: &Path, unix_seconds: f64, so_far: &Curve) -> Result<Self, Error> {
         vertifleet_core::create_folder(folder)?;
         let path = folder.join(format!("{PREFIX}{unix_seconds:.6}{SUFFIX}"));
@@ -178,7 +180,8 @@ mod tests {
         assert_eq!((steps.as_slice(), others.len()), (&[1, 2, 3, 4][..], 1));
     }
 
-    /// The step of an event, which must be below 128: one byte after the time, preceded by its field's number.
+    /// The step of an event, which must be below 128: one byte after the time, preceded by its
+    /// field's number.
     fn step(event: &[u8]) -> Option<u8> {
         (event[9] == 2 << 3).then(|| event[10])
     }
@@ -204,8 +207,8 @@ mod tests {
 
     #[test]
     fn the_checksum_is_that_of_the_format() {
-        // The CRC-32C of nine digits is 0xe3069283 (RFC 3720, appendix B.4 gives the polynomial); it is masked as in
-        // TFRecord.
+        // The CRC-32C of nine digits is 0xe3069283 (RFC 3720, appendix B.4 gives the polynomial);
+        // it is masked as in TFRecord.
         assert_eq!(
             masked_checksum(b"123456789"),
             0xe306_9283_u32.rotate_right(15).wrapping_add(0xa282_ead8)

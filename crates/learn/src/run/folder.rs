@@ -1,4 +1,5 @@
-//! The folder of a run, with weights, learning curve, checkpoint and TensorBoard's events; and the loop that fills it.
+//! The folder of a run, with weights, learning curve, checkpoint and TensorBoard's events; and the
+//! loop that fills it.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -11,8 +12,8 @@ use crate::nn::Architecture;
 use crate::run::event_file::EventFile;
 use crate::run::{Curve, TrainingRequest, TrainingRun};
 
-/// After a row of the curve, a checkpoint is written only if at least this many times as long has passed since the
-/// last one as writing it took.
+/// After a row of the curve, a checkpoint is written only if at least this many times as long has
+/// passed since the last one as writing it took.
 const LEARNING_TO_SAVING: u32 = 50;
 
 /// The files of a policy's run. The files of several policies may stand in one folder.
@@ -25,7 +26,8 @@ pub struct RunFolder {
     pub curve: PathBuf,
     /// The file from which the run is resumed.
     pub checkpoint: PathBuf,
-    /// The folder of TensorBoard's events. TensorBoard treats a folder as a run, so each policy has its own.
+    /// The folder of TensorBoard's events. TensorBoard treats a folder as a run, so each policy has
+    /// its own.
     pub events: PathBuf,
 }
 
@@ -35,8 +37,8 @@ pub trait TrainingWatch: Sync {
     fn has_worked(&self, units: u64);
     /// Called when the curve has a new row, learned at this many decisions per second.
     fn has_learned(&self, curve: &Curve, steps_per_second: f64);
-    /// Called when a file could not be written. The run continues without it: a disk that is full now may have room
-    /// again when the run is over.
+    /// Called when a file could not be written. The run continues without it: a disk that is full
+    /// now may have room again when the run is over.
     fn could_not_write(&self, error: &Error);
 }
 
@@ -54,12 +56,14 @@ impl RunFolder {
         }
     }
 
-    /// Starts a run that writes its files here, or resumes the run whose files are here if `resume` is set. No other
-    /// file is overwritten: a file that exists already must be one that an earlier run wrote.
+    /// Starts a run that writes its files here, or resumes the run whose files are here if `resume`
+    /// is set. No other file is overwritten: a file that exists already must be one that an earlier
+    /// run wrote.
     ///
     /// # Errors
-    /// The same as those of [`TrainingRequest::start`] and [`TrainingRequest::resume`]; [`Error::EarlierRun`] if a run is to
-    /// start where another run's checkpoint is; [`Error::Core`] for files that would be lost.
+    /// The same as those of [`TrainingRequest::start`] and [`TrainingRequest::resume`];
+    /// [`Error::EarlierRun`] if a run is to start where another run's checkpoint is;
+    /// [`Error::Core`] for files that would be lost.
     pub fn begin(
         &self,
         plan: TrainingRequest,
@@ -79,12 +83,12 @@ impl RunFolder {
         Ok(run)
     }
 
-    /// Learns until the run is done or `stop` is requested, and writes the files after rows of its curve and at the
-    /// end. A stop loses what was learned after the last row.
+    /// Learns until the run is done or `stop` is requested, and writes the files after rows of its
+    /// curve and at the end. A stop loses what was learned after the last row.
     ///
     /// # Errors
-    /// Returns an error if the run diverges, if its training days run out, or if the files cannot be written at the
-    /// end.
+    /// Returns an error if the run diverges, if its training days run out, or if the files cannot
+    /// be written at the end.
     pub fn train(
         &self,
         run: &mut dyn TrainingRun,
@@ -115,8 +119,8 @@ impl RunFolder {
         self.write(run, &curve)
     }
 
-    /// Writes the files of the run as it stands; each file is whole at every moment. The checkpoint is written last,
-    /// so everything that it refers to exists.
+    /// Writes the files of the run as it stands; each file is whole at every moment. The checkpoint
+    /// is written last, so everything that it refers to exists.
     fn write(&self, run: &dyn TrainingRun, curve: &Curve) -> Result<(), Error> {
         vertifleet_core::write_atomically(&self.curve, curve.to_csv().as_bytes())?;
         run.model().write(&self.weights)?;
@@ -124,7 +128,8 @@ impl RunFolder {
     }
 }
 
-/// TensorBoard's event file, for as long as it can be written: a failure to write it does not stop the run.
+/// TensorBoard's event file, for as long as it can be written: a failure to write it does not stop
+/// the run.
 struct Events(Option<EventFile>);
 
 impl Events {

@@ -122,7 +122,8 @@ fn every_way_to_learn_begins_with_given_weights() {
         Model::new(begun.header().clone(), vec![0.125; begun.params().len()]).expect("weights");
     for preset in ["default", "paper", "imitation", "evolution"] {
         let mut settings = TrainingSettings::preset(&small_mlp(), preset).expect("a preset");
-        // A run first measures the weights that it begins with on validation days; one day keeps the test fast.
+        // A run first measures the weights that it begins with on validation days; one day keeps
+        // the test fast.
         let days =
             if matches!(preset, "default" | "paper") { "eval_days" } else { "validation_days" };
         settings.set([(days, "1")]).expect("settings within their bounds");

@@ -1,5 +1,5 @@
-//! Properties that the networks have with any weights: the rows of a batch do not mix, masks hold, vertiports differ
-//! only by their features, and gradients of chunks add up.
+//! Properties that the networks have with any weights: the rows of a batch do not mix, masks hold,
+//! vertiports differ only by their features, and gradients of chunks add up.
 
 use vertifleet_learn::nn::{
     Architecture, GcapsSettings, GraphSettings, Inputs, Laplacian, MlpSettings, NeuralNetwork,
@@ -47,7 +47,6 @@ impl Decisions {
             aircraft: &self.aircraft[first * aircraft_features..][..batch * aircraft_features],
             mask: &self.mask[first * vertiports..][..batch * vertiports],
             edges: &[],
-            fleet: &[],
             clock: &self.clock[first..][..batch],
         }
     }
@@ -80,8 +79,9 @@ fn assert_close(found: &[f32], expected: &[f32], tolerance: f32) {
     }
 }
 
-/// A batch of one uses other kernels of the matrix product than larger batches do, and these add up in another order.
-/// So the answers agree to rounding, not to the bit, and the rounding error grows with the logits.
+/// A batch of one uses other kernels of the matrix product than larger batches do, and these add up
+/// in another order. So the answers agree to rounding, not to the bit, and the rounding error grows
+/// with the logits.
 #[test]
 fn a_decision_in_a_batch_is_answered_as_if_alone() {
     let decisions = Decisions::new(64);
@@ -264,8 +264,8 @@ fn an_architecture_is_written_and_read_back() {
     assert_eq!(Architecture::named("greedy"), None);
 }
 
-/// On the complete graph of N vertiports, I - D^-1 A is N / (N - 1) times (D - A) / N, so weights that make up for that
-/// give the same logits, by encoders that share no code.
+/// On the complete graph of N vertiports, I - D^-1 A is N / (N - 1) times (D - A) / N, so weights
+/// that make up for that give the same logits, by encoders that share no code.
 #[test]
 fn the_encoder_of_any_graph_is_that_of_the_paper_on_the_complete_graph() {
     let settings = GcapsSettings::of_sizes(32, 4);

@@ -1,13 +1,11 @@
-//! Compares the networks with PyTorch: outputs and gradients of an independent model, written literally from Eq.
-//! 18-21.
+//! Compares the networks with PyTorch: outputs and gradients of an independent model, written
+//! literally from Eq. 18-21.
 //!
-//! `reference/make_reference.py` regenerates the stored values; weights and inputs come from a formula on whole
-//! numbers that is implemented both there and here.
+//! `reference/make_reference.py` regenerates the stored values; weights and inputs come from a
+//! formula on whole numbers that is implemented both there and here.
 
 use serde_json::Value;
-use vertifleet_learn::nn::{
-    AIRCRAFT_SHOWN, Architecture, FLEET_FEATURES, Inputs, NeuralNetwork, Shape, Slopes, Tensor,
-};
+use vertifleet_learn::nn::{Architecture, Inputs, NeuralNetwork, Shape, Slopes, Tensor};
 
 /// Numbers in [-1, 1) that follow from a name and their index.
 fn noise(name: &str, len: usize) -> Vec<f32> {
@@ -75,18 +73,12 @@ fn check_case(net: &NeuralNetwork, case: &Value) {
         case["logits"].as_array().expect("logits").iter().map(Value::as_f64).collect();
     let mask: Vec<u8> = logits.iter().map(|logit| u8::from(logit.is_some())).collect();
     let edges = edges(net, batch);
-    let fleet = if net.architecture().has_aircraft_graph() {
-        noise("fleet", batch * AIRCRAFT_SHOWN * FLEET_FEATURES)
-    } else {
-        Vec::new()
-    };
     let inputs = Inputs {
         batch,
         nodes: &noise("nodes", batch * vertiports * node_features),
         aircraft: &noise("aircraft", batch * aircraft_features),
         mask: &mask,
         edges: &edges,
-        fleet: &fleet,
         clock: &noise("clock", batch),
     };
     let params: Vec<f32> = net.layout().tensors().iter().flat_map(weight).collect();

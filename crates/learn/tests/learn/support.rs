@@ -5,7 +5,8 @@ use std::sync::Arc;
 use vertifleet_core::{Network, Stop};
 use vertifleet_learn::{Curve, TrainingRequest, TrainingRun};
 
-/// The same run on days of the `paper` network that last two hours, for properties that hold for days of any length.
+/// The same run on days of the `paper` network that last two hours, for properties that hold for
+/// days of any length.
 pub(crate) fn on_mornings(asked: TrainingRequest) -> TrainingRequest {
     let paper = Network::shipped("paper").expect("a shipped network");
     let end = ("operations.end".to_owned(), "08:00:00".into());

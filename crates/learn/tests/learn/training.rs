@@ -1,5 +1,5 @@
-//! Properties of a training run by either way to learn: the weights are the same on any number of threads and after
-//! any interruption.
+//! Properties of a training run by either way to learn: the weights are the same on any number of
+//! threads and after any interruption.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -29,11 +29,6 @@ fn small_gcaps_x() -> Architecture {
 /// A policy of the full observation, which shows edges too.
 fn small_gcaps_full() -> Architecture {
     full_with(GraphSettings { adjacency: Adjacency::Profit, ..GraphSettings::default() })
-}
-
-/// A policy of the full observation that reads a graph of the other aircraft.
-fn small_with_aircraft() -> Architecture {
-    full_with(GraphSettings { aircraft_graph: true, ..GraphSettings::default() })
 }
 
 fn full_with(graph: GraphSettings) -> Architecture {
@@ -95,7 +90,7 @@ fn the_same_seed_gives_the_same_weights_on_any_number_of_threads() {
     let by_itself = plan_with(small_gcaps_full(), &[("own_rounds", "1"), ("samples", "40")]);
     let [gcaps, mlp] = [small_gcaps(), small_mlp()].map(|policy| short(policy, "imitation", &[]));
     let mornings = [plan(small_gcaps()), plan(small_mlp()), any_network, by_itself, gcaps, mlp];
-    let new_places = [small_gcaps_full(), small_mlp_full(), small_mlp(), small_with_aircraft()]
+    let new_places = [small_gcaps_full(), small_mlp_full(), small_mlp()]
         .map(|policy| TrainingRequest { world: World::RandomPlaces(5), ..plan(policy) });
     for plan in mornings.map(on_mornings).into_iter().chain(new_places) {
         let on = |threads| {
@@ -113,8 +108,8 @@ fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
     let terminal = plan_with(small_gcaps(), &[("reward", "terminal")]);
     let by_itself = plan_with(small_gcaps_x(), &[("own_rounds", "1"), ("samples", "40")]);
     let imitating = short(small_gcaps(), "imitation", &[]);
-    let [full, with_aircraft] = [small_gcaps_full(), small_with_aircraft()].map(plan);
-    let plans = [terminal, plan(small_gcaps_x()), by_itself, imitating, full, with_aircraft];
+    let full = plan(small_gcaps_full());
+    let plans = [terminal, plan(small_gcaps_x()), by_itself, imitating, full];
     for plan in plans.map(on_mornings) {
         let whole = finished(plan.clone().start().expect("a plan"));
         let mut first = plan.clone().start().expect("a plan");
@@ -281,7 +276,8 @@ fn damaged_weights_are_refused_and_never_a_panic() {
     for at in (0..3000).step_by(7) {
         let mut changed = bytes.clone();
         changed[at] ^= 0x15;
-        // Some members of the header may take another value; the test only checks that nothing panics.
+        // Some members of the header may take another value; the test only checks that nothing
+        // panics.
         let _ = Model::from_bytes(&changed, "changed");
     }
 }
@@ -342,10 +338,5 @@ fn what_a_policy_cannot_see_or_fit_is_refused_before_it_learns() {
     let sizes = GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) };
     for policy in [Architecture::Gcaps(sizes.clone()), Architecture::GcapsX(sizes)] {
         assert!(refused(plan(policy)).contains("shows no flights between two other vertiports"));
-    }
-    let graph = GraphSettings { aircraft_graph: true, ..GraphSettings::default() };
-    let sizes = GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) };
-    for policy in [Architecture::Gcaps(sizes.clone()), Architecture::GcapsX(sizes)] {
-        assert!(refused(plan(policy)).contains("shows no other aircraft one by one"));
     }
 }

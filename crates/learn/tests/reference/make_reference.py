@@ -20,8 +20,6 @@ from torch.nn.functional import layer_norm, relu
 WHOLE = np.uint64(0xFFFFFFFF)
 FULL_FEATURES = 37, 11
 """F and G of gcaps-full."""
-AIRCRAFT_SHOWN, FLEET_FEATURES = 40, 16
-"""M and H: how many of the other aircraft the graph of aircraft has, and how many numbers each of them."""
 PAPER = {"encoder": "capsules", "moments": 2, "hops": 2, "layers": 1}
 PAPER |= {"adjacency": "complete", "laplacian": "plain", "attention": True}
 GRAPHS = [
@@ -37,8 +35,6 @@ GRAPHS = [
     {"encoder": "transformer", "layers": 2},
     {"encoder": "transformer", "attention": False},
     {"attention": False},
-    {"aircraft_graph": True},
-    {"aircraft_graph": True, "adjacency": "profit", "moments": 1, "attention": False},
 ]
 """What is changed of the paper's graph in each case of graphs.json."""
 
@@ -88,18 +84,6 @@ def query(w: dict, aircraft):
     return aircraft @ w["decoder.query.weight"] + w["decoder.query.bias"]
 
 
-def of_the_fleet(graph: dict, w: dict, fleet):
-    """What the mean of the other aircraft's capsules, on the complete graph, adds to the query."""
-    m = AIRCRAFT_SHOWN
-    laplacian = torch.eye(m, dtype=torch.float64) - torch.full((m, m), 1 / m, dtype=torch.float64)
-    f = fleet @ w["fleet_encoder.node.weight"] + w["fleet_encoder.node.bias"]
-    capsules = []
-    for p in range(1, graph["moments"] + 1):
-        hops = [w[f"fleet_encoder.moment_{p}.hop_{a}.weight"] for a in (0, 1)]
-        capsules.append(relu(f**p @ hops[0] + laplacian @ f**p @ hops[1]))
-    return torch.cat(capsules, dim=-1).mean(1) @ w["fleet_encoder.join.weight"]
-
-
 def decoded(sizes: dict, w: dict, e, q, clock, attention: bool = True):
     """Logits and values from embeddings; without attention, every head has the same weight for all of them."""
     n, h, heads = sizes["vertiports"], sizes["width"], sizes["heads"]
@@ -123,7 +107,7 @@ def decoded(sizes: dict, w: dict, e, q, clock, attention: bool = True):
     return logits, hidden @ w["value.output.weight"] + w["value.output.bias"][0]
 
 
-def graph_gcaps(sizes: dict, w: dict, nodes, aircraft, clock, edges, fleet):
+def graph_gcaps(sizes: dict, w: dict, nodes, aircraft, clock, edges):
     """GCAPS with any graph, or with self-attention in place of graph capsules."""
     graph = sizes["graph"]
     f = nodes @ w["encoder.node.weight"] + w["encoder.node.bias"]
@@ -142,10 +126,7 @@ def graph_gcaps(sizes: dict, w: dict, nodes, aircraft, clock, edges, fleet):
                 capsules.append(relu(sum(power @ f**p @ hop for power, hop in zip(powers, hops))))
             f = torch.cat(capsules, dim=-1)
     e = f @ w["encoder.feed_forward.weight"] + w["encoder.feed_forward.bias"]
-    q = query(w, aircraft)
-    if graph.get("aircraft_graph"):
-        q = q + of_the_fleet(graph, w, fleet)
-    return decoded(sizes, w, e, q, clock, graph["attention"])
+    return decoded(sizes, w, e, query(w, aircraft), clock, graph["attention"])
 
 
 def laplacian_powers(sizes: dict, nodes, edges) -> list:
@@ -212,11 +193,6 @@ def graph_shapes(sizes: dict) -> dict[str, tuple[int, ...]]:
             shapes |= {f"{name}.lower.weight": (2 * h, h), f"{name}.lower.bias": (h,)}
         return shapes | other_shapes(h, h, *FULL_FEATURES)
     capsule = graph["moments"] * h
-    if graph.get("aircraft_graph"):
-        shapes |= {"fleet_encoder.node.weight": (FLEET_FEATURES, h), "fleet_encoder.node.bias": (h,)}
-        for p in range(1, graph["moments"] + 1):
-            shapes |= {f"fleet_encoder.moment_{p}.hop_{a}.weight": (h, h) for a in (0, 1)}
-        shapes |= {"fleet_encoder.join.weight": (capsule, h)}
     for name in ("encoder" if layer == 1 else f"encoder.layer_{layer}" for layer in layers):
         if name != "encoder":
             shapes |= {f"{name}.input.weight": (capsule, h), f"{name}.input.bias": (h,)}
@@ -282,7 +258,7 @@ def case(network, shapes: dict, sizes: dict, batch: int, every_slope: bool) -> d
         # Half of the edges have no weight, and one vertiport has no neighbours.
         edges = constant("edges", batch, n, n).clamp(min=0)
         edges[:, 0] = 0
-        seen += [edges, constant("fleet", batch, AIRCRAFT_SHOWN, FLEET_FEATURES)]
+        seen += [edges]
     open_ = (constant("mask", batch, n) > -0.4) | (torch.arange(n)[None] == torch.arange(batch)[:, None] % n)
     logits, values = network(sizes, weights, *seen)
     of_logits = (constant("logit_slopes", batch, n) * logits)[open_].sum()

@@ -1,12 +1,14 @@
-//! Graph capsules on any graph (§IV.A.1, Eq. 18 and 19), with any number of moments, hops and layers.
+//! Graph capsules on any graph (§IV.A.1, Eq. 18 and 19), with any number of moments, hops and
+//! layers.
 //!
 //! ```text
 //! f_p = ReLU(sum over a of L^a F^p W_pa)      F^p is F to the power p, entry by entry
 //! ```
 //!
-//! The sum over a is taken from the highest power down, H_0 + L (H_1 + L (H_2 + ...)) with H_a = F^p W_pa, so that L is
-//! applied K times. The capsules of a layer are [f_1, ..., f_P]. Those of the last layer are what the decoder reads;
-//! between layers, `C W + b` makes features of them again.
+//! The sum over a is taken from the highest power down, H_0 + L (H_1 + L (H_2 + ...)) with H_a =
+//! F^p W_pa, so that L is applied K times. The capsules of a layer are [f_1, ..., f_P]. Those of
+//! the last layer are what the decoder reads; between layers, `C W + b` makes features of them
+//! again.
 
 use crate::nn::batch::Inputs;
 use crate::nn::gcaps::graph::{Graph, add_product, add_transposed_product};
@@ -29,7 +31,8 @@ pub(crate) struct CapsuleLayers {
 /// One layer.
 #[derive(Debug, Clone)]
 struct CapsuleLayer {
-    /// What makes features of the capsules of the layer before; the first layer takes those of the nodes.
+    /// What makes features of the capsules of the layer before; the first layer takes those of the
+    /// nodes.
     input: Option<Linear>,
     /// W_pa, by p and then a.
     weights: Vec<Vec<Slot>>,
@@ -180,7 +183,8 @@ impl CapsuleLayers {
         relu::forward(capsules);
     }
 
-    /// Adds the slopes of all weights. `slopes` are those of the last layer's capsules; they are overwritten.
+    /// Adds the slopes of all weights. `slopes` are those of the last layer's capsules; they are
+    /// overwritten.
     pub(crate) fn backward(
         &self,
         tensors: Tensors<'_>,

@@ -8,9 +8,10 @@
 //! v = head of [mean E, y, clock]
 //! ```
 //!
-//! The embeddings E = C W_f + b_f of the capsules C are never computed. Each reader of the embeddings multiplies them
-//! by a matrix, so the product of W_f and that matrix, taken once per change of the weights ([`Products`]), is applied
-//! to the capsules instead. b_f adds a constant shift to the result.
+//! The embeddings E = C W_f + b_f of the capsules C are never computed. Each reader of the
+//! embeddings multiplies them by a matrix, so the product of W_f and that matrix, taken once per
+//! change of the weights ([`Products`]), is applied to the capsules instead. b_f adds a constant
+//! shift to the result.
 
 use crate::nn::batch::{Inputs, Outputs, Slopes};
 use crate::nn::gcaps::products::Products;
@@ -80,11 +81,6 @@ impl DecoderSpace {
         }
     }
 
-    /// The slopes of the queries after a backward pass [B x h].
-    pub(crate) fn query_slopes(&self, batch: usize, width: usize) -> &[f32] {
-        &self.slopes[..batch * width]
-    }
-
     /// The part of the memory that a batch uses.
     fn rows(&mut self, len: usize) -> Rows<'_> {
         Rows {
@@ -130,22 +126,18 @@ impl Decoder {
         self.width() / self.reads.heads
     }
 
-    /// Computes logits and values from capsules. `added` is what the other aircraft add to the queries [B x h].
+    /// Computes logits and values from capsules.
     pub(crate) fn forward(
         &self,
         tensors: Tensors<'_>,
         inputs: Inputs<'_>,
         capsules: &[f32],
-        added: Option<&[f32]>,
         space: &mut DecoderSpace,
         outputs: &mut Outputs,
     ) {
         let (batch, width) = (inputs.batch, self.width());
         let rows = space.rows(batch * width);
         self.query.forward(tensors, inputs.aircraft, rows.query);
-        if let Some(added) = added {
-            add(added, rows.query);
-        }
         self.attend(tensors, batch, capsules, rows.query, rows.reads, rows.heads);
 
         rows.sum.copy_from_slice(rows.query);
@@ -292,7 +284,8 @@ impl Decoder {
         multiply(to, Write::Add, shift_slopes, tensors.matrix(self.products.pointer_shift));
     }
 
-    /// Computes the slopes of the capsules from those of the heads (in `branch_slopes`), and adds those of the query.
+    /// Computes the slopes of the capsules from those of the heads (in `branch_slopes`), and adds
+    /// those of the query.
     fn attend_backward(
         &self,
         tensors: Tensors<'_>,

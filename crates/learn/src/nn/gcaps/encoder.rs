@@ -1,16 +1,18 @@
-//! The paper's graph-capsule encoder (§IV.A.1, Eq. 18 and 19) on the complete graph, with P = 2, K = 2 and one layer.
+//! The paper's graph-capsule encoder (§IV.A.1, Eq. 18 and 19) on the complete graph, with P = 2,
+//! K = 2 and one layer.
 //!
-//! The convolutions use powers of L / N instead of L = D - A. This gives the same family of functions (W_pa = V_pa /
-//! N^a) with all terms on one scale. On the complete graph, L / N subtracts the mean over the nodes, and subtracting
-//! it twice is the same as once. Hence, with S = V_p0 + V_p1 + V_p2 and T = V_p1 + V_p2,
+//! The convolutions use powers of L / N instead of L = D - A. This gives the same family of
+//! functions (W_pa = V_pa / N^a) with all terms on one scale. On the complete graph, L / N
+//! subtracts the mean over the nodes, and subtracting it twice is the same as once. Hence, with S =
+//! V_p0 + V_p1 + V_p2 and T = V_p1 + V_p2,
 //!
 //! ```text
 //! sum over a of (L/N)^a F V_pa  =  F S - mean(F) T
 //! ```
 //!
-//! which is one product for all nodes and one for their mean. For p = 1, F is linear in the features, so that
-//! branch reads the features themselves: X (W_0 S) - mean(X) (W_0 T) + b_0 V_10. The products of weights are
-//! in [`EncoderProducts`](super::products::EncoderProducts).
+//! which is one product for all nodes and one for their mean. For p = 1, F is linear in the
+//! features, so that branch reads the features themselves: X (W_0 S) - mean(X) (W_0 T) + b_0 V_10.
+//! The products of weights are in [`EncoderProducts`](super::products::EncoderProducts).
 
 use crate::nn::batch::Inputs;
 use crate::nn::gcaps::products::EncoderProducts;
@@ -135,7 +137,8 @@ impl Encoder {
         }
     }
 
-    /// Adds the slopes of W_0, b_0 and the products. `slopes` are those of the capsules; they are overwritten.
+    /// Adds the slopes of W_0, b_0 and the products. `slopes` are those of the capsules; they are
+    /// overwritten.
     pub(crate) fn backward(
         &self,
         tensors: Tensors<'_>,
@@ -179,8 +182,8 @@ impl Encoder {
             sums,
         );
 
-        // A square's slope has two parts: one through the node's own term, and one through the mean, which is the same
-        // for all nodes of a sample.
+        // A square's slope has two parts: one through the node's own term, and one through the
+        // mean, which is the same for all nodes of a sample.
         let mean_slopes = &mut space.square_means[..batch * width];
         let to = MatrixMut::new(mean_slopes, batch, width);
         multiply(to, Write::Set, sums, tensors.matrix(products.second_mean).transposed());

@@ -1,5 +1,6 @@
-//! Compares the encoder with a literal reading of Eq. 18 and 19: an explicit Laplacian, its square, and weights W_pa,
-//! in double precision. Also checks its slopes, including those that go through products of weights.
+//! Compares the encoder with a literal reading of Eq. 18 and 19: an explicit Laplacian, its square,
+//! and weights W_pa, in double precision. Also checks its slopes, including those that go through
+//! products of weights.
 
 use crate::nn::GcapsSettings;
 use crate::nn::architecture::Shape;
@@ -39,7 +40,6 @@ impl Case {
             aircraft: &[],
             mask: &[],
             edges: &[],
-            fleet: &[],
             clock: &[],
         }
     }

@@ -1,9 +1,10 @@
-//! The graph between the vertiports of a decision: its adjacency A and its Laplacian L, which the general encoder
-//! multiplies features by.
+//! The graph between the vertiports of a decision: its adjacency A and its Laplacian L, which the
+//! general encoder multiplies features by.
 //!
-//! With the degrees D on the diagonal, L is (D - A) / N, or I - D^-1 A if it is normalised. The first is what §IV writes,
-//! divided by the number of vertiports so that graphs of all sizes have one scale; on the complete graph both take the
-//! mean away. A route that is not flown in one direction has no weight in that direction, so A need not be symmetric.
+//! With the degrees D on the diagonal, L is (D - A) / N, or I - D^-1 A if it is normalised. The
+//! first is what §IV writes, divided by the number of vertiports so that graphs of all sizes have
+//! one scale; on the complete graph both take the mean away. A route that is not flown in one
+//! direction has no weight in that direction, so A need not be symmetric.
 
 use crate::nn::architecture::{Adjacency, Laplacian};
 use crate::nn::batch::Inputs;

@@ -1,4 +1,5 @@
-//! Checks encoders on graphs other than the paper's against finite differences, whole networks at a time.
+//! Checks encoders on graphs other than the paper's against finite differences, whole networks at a
+//! time.
 
 use crate::nn::slope_tests::check_network;
 use crate::nn::{Adjacency, Architecture, EncoderKind, GcapsSettings, GraphSettings, Laplacian};
@@ -40,12 +41,6 @@ fn no_graph_and_no_attention() {
 #[test]
 fn no_attention_beside_the_encoder_of_the_paper() {
     check(GraphSettings { attention: false, ..GraphSettings::default() });
-}
-
-#[test]
-fn a_graph_of_the_other_aircraft_beside_that_of_the_vertiports() {
-    check(GraphSettings { aircraft_graph: true, ..GraphSettings::default() });
-    check(GraphSettings { aircraft_graph: true, moments: 1, hops: 0, ..GraphSettings::default() });
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Products of weights that the network uses instead of the weights themselves, taken once per change of the weights.
+//! Products of weights that the network uses instead of the weights themselves, taken once per
+//! change of the weights.
 
 use crate::nn::gcaps::{DecoderWeights, EncoderWeights};
 use crate::nn::init::Init;
@@ -24,14 +25,16 @@ pub(crate) struct EncoderProducts {
 /// The places of the products of the decoder, which follow the weights.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Products {
-    /// (W_f W_K)^T, (W_f W_V)^T, and the shift b_f W_V of the latter. The part of a head is a block of rows.
+    /// (W_f W_K)^T, (W_f W_V)^T, and the shift b_f W_V of the latter. The part of a head is a block
+    /// of rows.
     pub(crate) key: Slot,
     pub(crate) value: Slot,
     pub(crate) value_shift: Slot,
     /// W_L W_f^T, and its shift b_f W_L^T.
     pub(crate) pointer: Slot,
     pub(crate) pointer_shift: Slot,
-    /// (W_f M)^T, with M the value head's rows for the mean of the embeddings, and b_f M plus the head's bias.
+    /// (W_f M)^T, with M the value head's rows for the mean of the embeddings, and b_f M plus the
+    /// head's bias.
     pub(crate) means: Slot,
     pub(crate) hidden_shift: Slot,
 }
@@ -75,7 +78,8 @@ impl EncoderProducts {
         add(twice, to);
     }
 
-    /// Computes the slopes of the weights from those of the products, which follow them in `gradient`.
+    /// Computes the slopes of the weights from those of the products, which follow them in
+    /// `gradient`.
     pub(crate) fn finish(&self, weights: &EncoderWeights, params: &[f32], gradient: &mut [f32]) {
         let (own, behind) = gradient.split_at_mut(params.len());
         let here = |slot: Slot| slot.counted_from(params.len());
@@ -152,7 +156,8 @@ impl Products {
         multiply(to, Write::Set, bias, pointer.transposed());
     }
 
-    /// Computes the slopes of the weights from those of the products, which follow them in `gradient`.
+    /// Computes the slopes of the weights from those of the products, which follow them in
+    /// `gradient`.
     pub(crate) fn finish(&self, weights: &DecoderWeights, params: &[f32], gradient: &mut [f32]) {
         let (own, behind) = gradient.split_at_mut(params.len());
         let slopes = |slot: Slot| slot.counted_from(params.len()).matrix(behind);

@@ -1,9 +1,11 @@
-//! How the decoder reads a sample's capsules: by attention over them, by their mean, and by a logit for each.
+//! How the decoder reads a sample's capsules: by attention over them, by their mean, and by a logit
+//! for each.
 //!
-//! A sample has one query, so the keys and values of all nodes are never computed. The query of a head is brought to
-//! the nodes' side instead (u = W_K q), its scores are C . u, and W_V is applied to what its attention collects, a C.
-//! All reads of a sample are rows with the width of a capsule, so they are stored together, and in the backward pass
-//! the slopes of the capsules are one product, `factors^T rows`:
+//! A sample has one query, so the keys and values of all nodes are never computed. The query of a
+//! head is brought to the nodes' side instead (u = W_K q), its scores are C . u, and W_V is applied
+//! to what its attention collects, a C. All reads of a sample are rows with the width of a capsule,
+//! so they are stored together, and in the backward pass the slopes of the capsules are one
+//! product, `factors^T rows`:
 //!
 //! | rows | factors |
 //! |---|---|
@@ -30,7 +32,8 @@ pub(crate) struct Reads {
     pub(crate) attention: bool,
 }
 
-/// The rows and factors of the table above, and what the attention collected; sizes for one sample in brackets.
+/// The rows and factors of the table above, and what the attention collected; sizes for one sample
+/// in brackets.
 #[derive(Debug)]
 pub(crate) struct ReadsSpace {
     /// [(2 heads + 2) x width].
@@ -148,8 +151,8 @@ impl Reads {
         sum_groups(capsules, vertiports, width, 1.0 / vertiports as f32, means);
     }
 
-    /// Computes the logits of every node, minus infinity where the mask is 0. The pointers and shifts must be written
-    /// first.
+    /// Computes the logits of every node, minus infinity where the mask is 0. The pointers and
+    /// shifts must be written first.
     pub(crate) fn point(
         self,
         capsules: &[f32],
@@ -202,8 +205,8 @@ impl Reads {
         }
     }
 
-    /// Computes the slopes of the queries from those of what was collected, and the slopes of the capsules from all
-    /// reads together.
+    /// Computes the slopes of the queries from those of what was collected, and the slopes of the
+    /// capsules from all reads together.
     pub(crate) fn attend_backward(
         self,
         capsules: &[f32],

@@ -1,5 +1,5 @@
-//! An encoder that knows no graph: layers of self-attention (Vaswani et al., 2017), in which every vertiport attends to
-//! all others. Graph capsules are compared with it.
+//! An encoder that knows no graph: layers of self-attention (Vaswani et al., 2017), in which every
+//! vertiport attends to all others. Graph capsules are compared with it.
 //!
 //! ```text
 //! A = softmax(Q K^T / sqrt(d)) of each head, with Q = F W_Q, K = F W_K, V = F W_V
@@ -43,7 +43,8 @@ struct AttentionLayer {
 /// The working memory of the layers.
 #[derive(Debug)]
 pub(crate) struct AttentionSpace {
-    /// The features that each layer takes, then those that the last one makes, [N x h] for a sample.
+    /// The features that each layer takes, then those that the last one makes, [N x h] for a
+    /// sample.
     features: Vec<Vec<f32>>,
     layers: Vec<LayerSpace>,
     /// Slopes of a layer's features, and two rows more to work in, [N x h] for a sample.
