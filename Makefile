@@ -36,8 +36,9 @@ lint: prepare python tools console-ready
 	cd python && .venv/bin/ruff format --check . && .venv/bin/ruff check . && .venv/bin/mypy
 	cd docs && ../python/.venv/bin/stubtest vertifleet._native
 	python/.venv/bin/typos
+	scripts/prose
 	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
-	shellcheck .ci/run benches/table2/figure $$(find scripts -type f)
+	shellcheck .ci/run benches/table2/figure $$(find scripts -type f ! -name prose)
 	cd web && npm run check
 
 rust-test: prepare database

@@ -15,12 +15,16 @@ pub(crate) struct Failure {
 }
 
 impl Failure {
-    /// V451: an argument with a value that is not allowed. The message contains the cause and the fix.
+    /// V451 argument that is not taken. A function of the Python package was called with an
+    /// argument that it does not take. The message names the argument and lists those that the
+    /// function takes.
+    ///
+    /// Fix: give one of the listed arguments.
     pub(crate) fn argument(message: String) -> Self {
         Self { code: Code(451), message, hint: None }
     }
 
-    /// V451 with a hint.
+    /// with a hint.
     pub(crate) fn hinted(message: String, hint: String) -> Self {
         Self { hint: Some(hint), ..Self::argument(message) }
     }

@@ -84,7 +84,8 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct ScenarioArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded,
+    /// san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
     pub(crate) network: String,
     /// Seed of the first day; the following days take the following seeds
     #[arg(long, allow_hyphen_values = true, value_parser = parse_seed)]
@@ -95,7 +96,8 @@ pub(crate) struct ScenarioArguments {
     /// File for one day, folder for several (with --days) [default: the day goes to stdout]
     #[arg(short, long, value_name = "FILE|DIR")]
     pub(crate) output: Option<PathBuf>,
-    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    /// Replace a file that this program did not write or that is read-only; never what the command
+    /// reads
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -104,7 +106,8 @@ pub(crate) struct ScenarioArguments {
 pub(crate) struct SimulateArguments {
     /// Scenario file
     pub(crate) scenario: PathBuf,
-    /// random, greedy, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K, gcaps-full, mlp-full, or replay:TRACE
+    /// random, greedy, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K, gcaps-full,
+    /// mlp-full, or replay:TRACE
     #[arg(long, value_parser = parse_name)]
     pub(crate) policy: String,
     /// Seed of the random policy
@@ -116,10 +119,12 @@ pub(crate) struct SimulateArguments {
     /// Write every decision to this CSV file
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
-    /// Write a page with ledger, map, aircraft, stands, demand and replay of the day to this HTML file
+    /// Write a page with ledger, map, aircraft, stands, demand and replay of the day to this HTML
+    /// file
     #[arg(long, value_name = "FILE")]
     pub(crate) report: Option<PathBuf>,
-    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    /// Replace a file that this program did not write or that is read-only; never what the command
+    /// reads
     #[arg(long)]
     pub(crate) force: bool,
     /// Print the day's numbers as JSON
@@ -143,11 +148,12 @@ pub(crate) struct BoundArguments {
     /// Scenario file; several of them, or a folder with them (all *.json), give means over days too
     #[arg(required = true, value_name = "SCENARIO|DIR")]
     pub(crate) scenarios: Vec<PathBuf>,
-    /// Longest price interval, minutes, 1 to 60; slices have 60, 15, 5, 3 or 1 minutes. Fewer never give a looser bound, and take
-    /// longer
+    /// Longest price interval, minutes, 1 to 60; slices have 60, 15, 5, 3 or 1 minutes. Fewer never
+    /// give a looser bound, and take longer
     #[arg(long, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
-    /// Bound also what can be earned on the mean without knowing take-off delays, on days drawn from this network
+    /// Bound also what can be earned on the mean without knowing take-off delays, on days drawn
+    /// from this network
     #[arg(long, value_name = "NETWORK")]
     pub(crate) without_foresight: Option<String>,
     /// Print bounds and shadow prices as JSON
@@ -165,13 +171,15 @@ pub(crate) struct PlanArguments {
     /// Seconds that it takes at most, start and proof included; 0 gives the day of greedy
     #[arg(long, value_name = "S", default_value = "60", allow_hyphen_values = true, value_parser = parse_seconds)]
     pub(crate) time_limit: Duration,
-    /// Stop as soon as the gap to the certified bound is no more than this share of the bound, as 0.03
+    /// Stop as soon as the gap to the certified bound is no more than this share of the bound, as
+    /// 0.03
     #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = parse_share)]
     pub(crate) gap: Option<f64>,
     /// Seed of the search
     #[arg(long, default_value_t = 0, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: u64,
-    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    /// Replace a file that this program did not write or that is read-only; never what the command
+    /// reads
     #[arg(long)]
     pub(crate) force: bool,
     /// Print the plan's numbers as JSON
@@ -209,14 +217,16 @@ impl Trainable {
 
 #[derive(Debug, Args)]
 pub(crate) struct TrainArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER;
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded,
+    /// san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER;
     /// random or random-places:SIZE for a new network each day
     #[arg(long)]
     pub(crate) network: String,
     /// Kind of policy
     #[arg(long)]
     pub(crate) policy: Trainable,
-    /// Settings to start from: default, or evolution; for gcaps and mlp also paper (Table 2) or imitation
+    /// Settings to start from: default, or evolution; for gcaps and mlp also paper (Table 2) or
+    /// imitation
     #[arg(long, default_value = "default")]
     pub(crate) preset: String,
     /// Decisions to learn from, in place of the preset's
@@ -225,7 +235,8 @@ pub(crate) struct TrainArguments {
     /// Seed of the run: first weights, training days and choices follow from it
     #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed_of_a_run)]
     pub(crate) seed: u32,
-    /// Weights to begin with, of the same kind of policy, in place of fresh ones; sizes are those of the weights
+    /// Weights to begin with, of the same kind of policy, in place of fresh ones; sizes are those
+    /// of the weights
     #[arg(long, value_name = "FILE")]
     pub(crate) begin_with: Option<PathBuf>,
     /// Folder for weights, learning curve and checkpoint
@@ -234,7 +245,8 @@ pub(crate) struct TrainArguments {
     /// Go on from the checkpoint in the folder
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    /// Replace a file that this program did not write or that is read-only; never what the command
+    /// reads
     #[arg(long)]
     pub(crate) force: bool,
     /// Change one setting; may be given several times
@@ -244,14 +256,17 @@ pub(crate) struct TrainArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct CompareArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded,
+    /// san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
     #[arg(long, required_unless_present = "days_from")]
     pub(crate) network: Option<String>,
-    /// Days of your own in place of drawn ones: scenario files, or a folder with them (all *.json, in the order of their names)
+    /// Days of your own in place of drawn ones: scenario files, or a folder with them (all *.json,
+    /// in the order of their names)
     #[arg(long, value_name = "DIR|FILE", num_args = 1.., conflicts_with_all = ["network", "days", "seed", "split"])]
     pub(crate) days_from: Vec<PathBuf>,
-    /// Policies, separated by commas: random, greedy, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K (which
-    /// rolls its K best choices out), names given by --model, and plan, the planner, which knows the days beforehand
+    /// Policies, separated by commas: random, greedy, prices, rolling, gcaps, mlp, gcaps-x,
+    /// gcaps-x:rollouts=K (which rolls its K best choices out), names given by --model, and plan,
+    /// the planner, which knows the days beforehand
     #[arg(long, value_delimiter = ',', required = true, value_parser = parse_name)]
     pub(crate) policies: Vec<String>,
     /// Number of days
@@ -260,8 +275,8 @@ pub(crate) struct CompareArguments {
     /// Seed of the first day, and of the random policy [default: 1, and 0 with --days-from]
     #[arg(long, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: Option<u64>,
-    /// Whose days: comparison, for results; validation, to choose settings and weights; or training. With the latter two, the
-    /// seed is the number of the first day
+    /// Whose days: comparison, for results; validation, to choose settings and weights; or
+    /// training. With the latter two, the seed is the number of the first day
     #[arg(long, default_value = "comparison", value_parser = parse_split)]
     pub(crate) split: Purpose,
     /// Weights for a policy name; may be given several times
@@ -270,7 +285,8 @@ pub(crate) struct CompareArguments {
     /// Prove an upper bound of every day and show each policy's share of it
     #[arg(long)]
     pub(crate) bound: bool,
-    /// Longest price interval of the bound, minutes, 1 to 60; shorter is never looser and takes longer
+    /// Longest price interval of the bound, minutes, 1 to 60; shorter is never looser and takes
+    /// longer
     #[arg(long, value_name = "MIN", default_value_t = 5, requires = "bound", allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
     #[command(flatten)]
@@ -279,10 +295,13 @@ pub(crate) struct CompareArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct EvaluateArguments {
-    /// Suites, separated by commas: paper-100, disrupted-100, new-york-100, cities-100, random-50, random-places-100, large, or all; random:N is a day of each of N random networks, whose bounds are proven first
+    /// Suites, separated by commas: paper-100, disrupted-100, new-york-100, cities-100, random-50,
+    /// random-places-100, large, or all; random:N is a day of each of N random networks, whose
+    /// bounds are proven first
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "paper-100", value_parser = parse_name)]
     pub(crate) suite: Vec<String>,
-    /// Policies, separated by commas, as compare takes them; the others are measured against the first
+    /// Policies, separated by commas, as compare takes them; the others are measured against the
+    /// first
     #[arg(long, value_delimiter = ',', required_unless_present = "verify", value_parser = parse_name)]
     pub(crate) policies: Vec<String>,
     /// Weights for a policy name; may be given several times
@@ -291,7 +310,8 @@ pub(crate) struct EvaluateArguments {
     /// Write a result file for each suite and policy into this folder
     #[arg(long, value_name = "DIR")]
     pub(crate) results: Option<PathBuf>,
-    /// What to say about the policies in the result files, as training=NONE; may be given several times
+    /// What to say about the policies in the result files, as training=NONE; may be given several
+    /// times
     #[arg(long, value_name = "NAME=TEXT", requires = "results", value_parser = parse_pair)]
     pub(crate) about: Vec<(String, String)>,
     /// Verify result files: play their choices, and compute everything that they claim again
@@ -300,7 +320,8 @@ pub(crate) struct EvaluateArguments {
     /// Print the results as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    /// Replace a file that this program did not write or that is read-only; never what the command
+    /// reads
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -314,7 +335,8 @@ pub(crate) struct PresentedArguments {
     /// Write table, figures and a report page into this folder, in place of an earlier report
     #[arg(long, value_name = "DIR")]
     pub(crate) report: Option<PathBuf>,
-    /// Replace a read-only report, and move any other folder of that name to DIR.old; never what the command reads
+    /// Replace a read-only report, and move any other folder of that name to DIR.old; never what
+    /// the command reads
     #[arg(long)]
     pub(crate) force: bool,
 }

@@ -32,7 +32,8 @@ use crate::output::{print, warn};
 /// Most warnings about many days that are printed one by one.
 const MOST_WARNINGS: usize = 10;
 
-/// The network with this name or path. The files that it is read from are protected from being written to.
+/// The network with this name or path. The files that it is read from are protected from being
+/// written to.
 fn find_network(name: &str, outputs: &mut Outputs) -> Result<Network, Failure> {
     let network = Network::find(name)?;
     for file in network.files() {
@@ -69,7 +70,8 @@ fn reads_policy(spec: &PolicySpec, model: Option<&PolicySource>, outputs: &mut O
     }
 }
 
-/// Prints the warnings about some days on stderr, each one once, with the first day that it applies to.
+/// Prints the warnings about some days on stderr, each one once, with the first day that it applies
+/// to.
 fn warn_unserved_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
     let mut said: Vec<String> = Vec::new();
     let mut more = 0_u32;
@@ -92,15 +94,16 @@ fn warn_unserved_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
     }
 }
 
-/// Prints the warnings about passengers whom no fleet can carry, which a study of fleets should know of.
+/// Prints the warnings about passengers whom no fleet can carry, which a study of fleets should
+/// know of.
 fn warn_of_demand(network: &Network) {
     for warning in network.warnings().iter().filter(|warning| warning.is_about_demand()) {
         warn(warning.code(), &format!("{}: {warning}", network.name()));
     }
 }
 
-/// Checks, before any day is played, that the report can be written to its folder without replacing anything that is
-/// read.
+/// Checks, before any day is played, that the report can be written to its folder without replacing
+/// anything that is read.
 fn claim_report(arguments: &PresentedArguments, outputs: &mut Outputs) -> Result<(), Failure> {
     if let Some(folder) = &arguments.report {
         outputs.replaces_folder(folder)?;

@@ -1,7 +1,7 @@
 //! How the program fails: with a coded message and a hint on stderr, and an exit code.
 //!
-//! Exit code 2 means that the arguments or the input files are wrong; 1 means that something else failed, such as a
-//! write to a full disk or a training that diverged.
+//! Exit code 2 means that the arguments or the input files are wrong; 1 means that something else
+//! failed, such as a write to a full disk or a training that diverged.
 
 use std::fmt;
 use std::process::ExitCode;
@@ -20,7 +20,10 @@ pub(crate) struct Failure {
 }
 
 impl Failure {
-    /// V450: arguments that do not go together. Cause and fix are in the message and its hint.
+    /// V450 arguments that do not go together. The arguments contradict each other; the message and
+    /// the hint say how. For example, `train --set` names a setting that `gcaps-x` does not have.
+    ///
+    /// Fix: follow the hint.
     pub(crate) fn usage(message: String, hint: &str) -> Self {
         let hint = Some(hint.to_owned());
         Self { code: Some(Code(450)), exit: Exit::Input, message, hint }

@@ -1,9 +1,10 @@
-//! Ctrl-C. In a command whose partial results are worth keeping, the first Ctrl-C requests a clean end and the second
-//! ends the program at once; in other commands the first one does. A file that is being written is never cut off.
+//! Ctrl-C. In a command whose partial results are worth keeping, the first Ctrl-C requests a clean
+//! end and the second ends the program at once; in other commands the first one does. A file that
+//! is being written is never cut off.
 //!
-//! On Unix, SIGTERM and SIGHUP are handled in the same way. A signal that was ignored when the program started stays
-//! ignored: that is how `nohup`, and a shell without job control that starts a program in the background, tell the
-//! program to continue.
+//! On Unix, SIGTERM and SIGHUP are handled in the same way. A signal that was ignored when the
+//! program started stays ignored: that is how `nohup`, and a shell without job control that starts
+//! a program in the background, tell the program to continue.
 
 use std::process::exit;
 
@@ -12,10 +13,12 @@ use vertifleet_core::Stop;
 
 use crate::failure::Failure;
 
-/// The exit code of a program that Ctrl-C ended, as shells define it: 128 plus the number of the signal.
+/// The exit code of a program that Ctrl-C ended, as shells define it: 128 plus the number of the
+/// signal.
 const INTERRUPTED: i32 = 130;
 
-/// The stop request of the first Ctrl-C. Only one of the public functions of this file may be called, and only once.
+/// The stop request of the first Ctrl-C. Only one of the public functions of this file may be
+/// called, and only once.
 pub(crate) fn stop_on_interrupt() -> Result<Stop, Failure> {
     let stop = Stop::default();
     let raised = stop.clone();
@@ -58,8 +61,8 @@ fn on_interrupt(mut handler: impl FnMut() + Send + 'static) -> Result<(), Failur
     Ok(())
 }
 
-/// The signals that are ignored, one bit each, the lowest bit for signal 1, as Linux reports them. On other systems
-/// this is not known, and all signals are handled.
+/// The signals that are ignored, one bit each, the lowest bit for signal 1, as Linux reports them.
+/// On other systems this is not known, and all signals are handled.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

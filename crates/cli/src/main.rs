@@ -1,7 +1,7 @@
 //! The `vertifleet` program. It has arguments and glue, and no logic of its own.
 //!
-//! Numbers go to stdout, messages for people to stderr. Exit code 0: done; 1: failed, or `check` found a broken rule;
-//! 2: wrong usage or bad input.
+//! Numbers go to stdout, messages for people to stderr. Exit code 0: done; 1: failed, or `check`
+//! found a broken rule; 2: wrong usage or bad input.
 
 mod args;
 mod commands;
@@ -57,8 +57,8 @@ fn run(command: Command) -> Result<ExitCode, failure::Failure> {
     }
 }
 
-/// Limits the number of threads of all later work. Without `--threads`, it is `RAYON_NUM_THREADS` or the number of
-/// cores.
+/// Limits the number of threads of all later work. Without `--threads`, it is `RAYON_NUM_THREADS`
+/// or the number of cores.
 fn limit_threads(threads: Option<usize>) -> Result<(), failure::Failure> {
     let Some(threads) = threads else { return Ok(()) };
     rayon::ThreadPoolBuilder::new()

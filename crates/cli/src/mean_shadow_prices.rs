@@ -45,8 +45,9 @@ fn of_stands(days: &[(&Scenario, &Bound)]) -> Vec<(String, Mean)> {
     VertiportIx::all(first.vertiports.len()).map(mean).collect()
 }
 
-/// The mean shadow price of one more passenger, by pair and period, highest first. Only those with a price above zero
-/// on some day are listed. A day on which the price is zero, or which has no such period, counts as zero.
+/// The mean shadow price of one more passenger, by pair and period, highest first. Only those with
+/// a price above zero on some day are listed. A day on which the price is zero, or which has no
+/// such period, counts as zero.
 fn of_passengers(days: &[(&Scenario, &Bound)]) -> Vec<([String; 3], Mean)> {
     let mut prices: Vec<([String; 3], Vec<f64>)> = Vec::new();
     let mut places = std::collections::BTreeMap::new();

@@ -8,8 +8,8 @@ use vertifleet_core::Code;
 
 use crate::failure::Failure;
 
-/// Prints a result and a line break. A reader such as `head` that closes the pipe early is not a failure; a full disk
-/// is.
+/// Prints a result and a line break. A reader such as `head` that closes the pipe early is not a
+/// failure; a full disk is.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     let written = writeln!(stdout, "{}", text.trim_end_matches('\n')).and_then(|()| stdout.flush());

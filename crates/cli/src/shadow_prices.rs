@@ -1,9 +1,9 @@
-//! The shadow prices of stands and passengers as JSON and as lines of text. A shadow price is by how much the upper
-//! bound may rise for one more stand or passenger.
+//! The shadow prices of stands and passengers as JSON and as lines of text. A shadow price is by
+//! how much the upper bound may rise for one more stand or passenger.
 //!
-//! With one more stand or passenger, the same prices prove the bound plus its shadow price: no schedule of that day
-//! earns more. If the bound of the changed day is proved again, it comes from another search, and may be a little above
-//! or below that.
+//! With one more stand or passenger, the same prices prove the bound plus its shadow price: no
+//! schedule of that day earns more. If the bound of the changed day is proved again, it comes from
+//! another search, and may be a little above or below that.
 
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -26,8 +26,9 @@ pub(crate) fn of_stands(scenario: &Scenario, bound: &Bound) -> Map<String, Value
     VertiportIx::all(scenario.vertiports.len()).map(price).collect()
 }
 
-/// The shadow price of one more charger all day, dollars by vertiport, for the vertiports that have chargers beside
-/// their other stands. The bound does not tell the two apart, so this is the shadow price of one more stand there.
+/// The shadow price of one more charger all day, dollars by vertiport, for the vertiports that have
+/// chargers beside their other stands. The bound does not tell the two apart, so this is the shadow
+/// price of one more stand there.
 pub(crate) fn of_chargers(scenario: &Scenario, bound: &Bound) -> Map<String, Value> {
     let separate = VertiportIx::all(scenario.vertiports.len())
         .filter(|vertiport| scenario.vertiports[vertiport.at()].chargers.is_some());
@@ -36,8 +37,8 @@ pub(crate) fn of_chargers(scenario: &Scenario, bound: &Bound) -> Map<String, Val
     separate.map(price).collect()
 }
 
-/// The shadow price in dollars of one more passenger from `from` to `to` in the period that begins at the time
-/// `period`, in the form that JSON output has.
+/// The shadow price in dollars of one more passenger from `from` to `to` in the period that begins
+/// at the time `period`, in the form that JSON output has.
 #[derive(Serialize)]
 pub(crate) struct PassengerShadowPrice<'a> {
     pub(crate) from: &'a str,
@@ -46,8 +47,8 @@ pub(crate) struct PassengerShadowPrice<'a> {
     pub(crate) shadow_price_usd: f64,
 }
 
-/// The shadow price of one more passenger, by pair and period, highest first; pairs and periods without one are left
-/// out.
+/// The shadow price of one more passenger, by pair and period, highest first; pairs and periods
+/// without one are left out.
 pub(crate) fn of_passengers<'a>(
     scenario: &'a Scenario,
     bound: &Bound,

@@ -1,4 +1,5 @@
-//! Parses the values of arguments one by one. The error of a value that does not fit says what is expected.
+//! Parses the values of arguments one by one. The error of a value that does not fit says what is
+//! expected.
 
 use std::fmt::Display;
 use std::str::FromStr;

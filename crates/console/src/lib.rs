@@ -1,6 +1,7 @@
 //! The console and the replay page, as they are built from `web/` and kept in `web/dist`.
 //!
-//! They are part of the program, so that a user needs neither Node.js nor the network to look at a day.
+//! They are part of the program, so that a user needs neither Node.js nor the network to look at a
+//! day.
 //!
 //! ```
 //! let page = vertifleet_console::asset("index.html").expect("the console has a page");

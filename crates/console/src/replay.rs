@@ -1,5 +1,5 @@
-//! The replay page: one HTML file that shows days without a service, with its scripts, its days and the part of the base
-//! map that they need within it.
+//! The replay page: one HTML file that shows days without a service, with its scripts, its days and
+//! the part of the base map that they need within it.
 
 use std::collections::BTreeMap;
 
@@ -20,14 +20,16 @@ const BASEMAP: &str = r#"<script type="application/json" id="vertifleet-basemap"
 #[folder = "../../web/dist/assets/basemap"]
 struct Basemap;
 
-/// Degrees of a side of a sector, and of a cell within it, as `web/src/map/ground/grid.ts` has them.
+/// Degrees of a side of a sector, and of a cell within it, as `web/src/map/ground/grid.ts` has
+/// them.
 const SECTOR: i32 = 30;
 const CELL: i32 = 5;
 /// Degrees around the vertiports that are shown too.
 const MARGIN: f64 = 1.5;
 
-/// The replay page with these days in it, as the JSON that `web/src/replay/days.ts` describes. `places` are the
-/// latitudes and longitudes of all vertiports that have them; the page gets the base map around these.
+/// The replay page with these days in it, as the JSON that `web/src/replay/days.ts` describes.
+/// `places` are the latitudes and longitudes of all vertiports that have them; the page gets the
+/// base map around these.
 ///
 /// # Panics
 /// Panics if the page was built without a place for the days, which a test of this crate rules out.
@@ -41,8 +43,8 @@ pub fn replay_page(days: &str, places: &[(f64, f64)]) -> String {
     format!("{REPLAY_OPENING}{head}{BASEMAP}{map}</script>\n    {DATA}{days}</script>{tail}")
 }
 
-/// What the replay page runs, and what it looks by: its script and its style sheet. A server of the page that forbids
-/// other scripts and styles has to allow these.
+/// What the replay page runs, and what it looks by: its script and its style sheet. A server of the
+/// page that forbids other scripts and styles has to allow these.
 ///
 /// # Panics
 /// Panics if the page was built without them, which a test of this crate rules out.

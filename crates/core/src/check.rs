@@ -49,8 +49,8 @@ pub(crate) fn id(origin: &str, member: impl FnOnce() -> String, id: &str) -> Res
     Err(Error::BadId { origin: origin.to_owned(), member: member(), rule: RULE, found })
 }
 
-/// Refuses ids that are not well formed or not unique; `list` is the list's name in the file, `entry` the word for one
-/// of its entries.
+/// Refuses ids that are not well formed or not unique; `list` is the list's name in the file,
+/// `entry` the word for one of its entries.
 pub(crate) fn ids<'a>(
     origin: &str,
     list: &str,
@@ -322,7 +322,8 @@ impl Check<'_> {
         self.passengers(&self.day.demand, "demand")
     }
 
-    /// Checks that there is a table of passengers for each period, and that each has 0 on the diagonal.
+    /// Checks that there is a table of passengers for each period, and that each has 0 on the
+    /// diagonal.
     fn passengers(&self, tables: &[Matrix<u32>], member: &str) -> Result<(), Error> {
         self.per_period(member, tables.len())?;
         demand_cells(self.origin, self.day.vertiports.len(), self.day.periods.len())?;

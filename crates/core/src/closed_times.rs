@@ -1,14 +1,15 @@
-//! The times at which each route is closed: a day's closures by route, with those that overlap or touch joined.
+//! The times at which each route is closed: a day's closures by route, with those that overlap or
+//! touch joined.
 
 use crate::{Closure, Time, VertiportIx};
 
-/// The times at which the routes of a day are closed, by some of its closures or by all of them. A query looks into a
-/// table and allocates no memory.
+/// The times at which the routes of a day are closed, by some of its closures or by all of them. A
+/// query looks into a table and allocates no memory.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ClosedTimes {
     vertiports: usize,
-    /// Position in `spans` at which those of each route begin, `[from][to]` row by row, and the number of spans at the
-    /// end. Empty if nothing is ever closed.
+    /// Position in `spans` at which those of each route begin, `[from][to]` row by row, and the
+    /// number of spans at the end. Empty if nothing is ever closed.
     begins: Vec<u32>,
     spans: Vec<ClosedSpan>,
 }

@@ -1,12 +1,14 @@
-//! Stable numbers of expected errors, shared by all crates; docs/src/reference/errors.md has one entry for each.
+//! Stable numbers of expected errors, shared by all crates; docs/src/reference/errors.md has one
+//! entry for each.
 
 use std::fmt;
 
 /// The stable number of an expected error or warning, printed as `V104`.
 ///
-/// V1xx numbers belong to files, networks and scenarios (this crate), V2xx to decisions, traces and checks, V3xx to
-/// models and training, V4xx to studies and the command line, V5xx to bounds and plans, V6xx to the dispatch service,
-/// V7xx to imports and exports. A number is never reused for something else.
+/// V1xx numbers belong to files, networks and scenarios (this crate), V2xx to decisions, traces and
+/// checks, V3xx to models and training, V4xx to studies and the command line, V5xx to bounds and
+/// plans, V6xx to the dispatch service, V7xx to imports and exports. A number is never reused for
+/// something else.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code(pub u16);
 

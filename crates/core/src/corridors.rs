@@ -1,4 +1,5 @@
-//! Corridors of the network file: pairs that may be flown, with the length of the way where it is not straight.
+//! Corridors of the network file: pairs that may be flown, with the length of the way where it is
+//! not straight.
 
 use serde::Deserialize;
 
@@ -7,7 +8,8 @@ use crate::raw::{Positions, each};
 use crate::raw_disturbances::RawRoute;
 use crate::{Error, Matrix, Route};
 
-/// How much shorter than the straight line a corridor may be, as a share: lengths are rounded, and taken from maps.
+/// How much shorter than the straight line a corridor may be, as a share: lengths are rounded, and
+/// taken from maps.
 const ROUNDING: f64 = 0.01;
 
 /// A corridor of the network file.
@@ -32,7 +34,8 @@ pub(crate) fn corridors(
 }
 
 impl RawCorridor {
-    /// Checks the corridor at a position of the list, and puts its length in place of the straight distance.
+    /// Checks the corridor at a position of the list, and puts its length in place of the straight
+    /// distance.
     pub(crate) fn check(
         self,
         at: usize,

@@ -18,8 +18,9 @@ pub struct Difference {
 }
 
 impl Network {
-    /// What another network's file says differently, with members in the order of their names. Comments and the order of
-    /// members do not count, nor does the order of vertiports and aircraft types, which have names.
+    /// What another network's file says differently, with members in the order of their names.
+    /// Comments and the order of members do not count, nor does the order of vertiports and
+    /// aircraft types, which have names.
     pub fn differences(&self, other: &Self) -> Vec<Difference> {
         let read = |network: &Self| -> Value {
             toml::from_str(network.toml()).expect("the text has been read before")
@@ -67,7 +68,8 @@ fn compare(
     }
 }
 
-/// Lists of numbers are one difference, since the place of an entry says little; other lists are compared entry by entry.
+/// Lists of numbers are one difference, since the place of an entry says little; other lists are
+/// compared entry by entry.
 fn compare_positions(path: &str, before: &[Value], after: &[Value], found: &mut Vec<Difference>) {
     let are_plain = |list: &[Value]| list.iter().all(|value| !value.is_table());
     if are_plain(before) && are_plain(after) {
@@ -81,7 +83,8 @@ fn compare_positions(path: &str, before: &[Value], after: &[Value], found: &mut 
     }
 }
 
-/// The entries of a list by their ids (or, in the fleet, types), if all have one and no two the same.
+/// The entries of a list by their ids (or, in the fleet, types), if all have one and no two the
+/// same.
 fn named(list: &[Value]) -> Option<Vec<(&str, &Value)>> {
     let mut entries = Vec::new();
     for entry in list {

@@ -1,16 +1,18 @@
-//! What may disturb a day: demand that differs from the forecast, late take-offs, closed routes, aircraft out of
-//! service. No policy knows disturbances in advance, except for closures that are announced.
+//! What may disturb a day: demand that differs from the forecast, late take-offs, closed routes,
+//! aircraft out of service. No policy knows disturbances in advance, except for closures that are
+//! announced.
 //!
-//! All disturbances stand in the scenario, so that every policy meets the same ones. The simulator decides which of
-//! them a policy may see, and when. A quiet day has none; all days of `paper` are quiet.
+//! All disturbances stand in the scenario, so that every policy meets the same ones. The simulator
+//! decides which of them a policy may see, and when. A quiet day has none; all days of `paper` are
+//! quiet.
 
 use crate::{AircraftIx, Matrix, Time, VertiportIx};
 
 /// The disturbances of a day; by default there are none.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Disturbances {
-    /// Passengers expected in each period, if the actual [demand](crate::Day::demand) differs from the forecast. A
-    /// period's actual demand becomes known when the period begins.
+    /// Passengers expected in each period, if the actual [demand](crate::Day::demand) differs from
+    /// the forecast. A period's actual demand becomes known when the period begins.
     pub forecast: Option<Vec<Matrix<u32>>>,
     /// How late flights take off.
     pub takeoff_delays: Option<TakeoffDelays>,
@@ -33,7 +35,8 @@ impl Disturbances {
 /// How late flights take off, by the vertiport that they leave and the time of the decision.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TakeoffDelays {
-    /// Length of a slot, seconds. The first slot begins when operations start; the last one contains their end.
+    /// Length of a slot, seconds. The first slot begins when operations start; the last one
+    /// contains their end.
     pub slot_s: u32,
     /// Seconds of delay by slot, then by vertiport.
     pub delay_s: Vec<Vec<u32>>,
@@ -45,7 +48,8 @@ impl TakeoffDelays {
         (end.since(start) / slot_s) as usize + 1
     }
 
-    /// Seconds by which a flight takes off late if it is decided at `time`, on a day that starts at `start`.
+    /// Seconds by which a flight takes off late if it is decided at `time`, on a day that starts at
+    /// `start`.
     #[inline]
     pub fn at(&self, start: Time, time: Time, from: VertiportIx) -> u32 {
         let slot = (time.since(start) / self.slot_s) as usize;
@@ -72,7 +76,8 @@ impl Route {
     }
 }
 
-/// A route, and the time from `start` until before `end` in which no flight along it may be decided.
+/// A route, and the time from `start` until before `end` in which no flight along it may be
+/// decided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Closure {
     /// The route.
@@ -81,13 +86,13 @@ pub struct Closure {
     pub start: Time,
     /// First instant at which the route is open again.
     pub end: Time,
-    /// Whether policies know of the closure from the start of the day on. If not, they see that the route is closed
-    /// only once it is, and do not see until when.
+    /// Whether policies know of the closure from the start of the day on. If not, they see that the
+    /// route is closed only once it is, and do not see until when.
     pub known: bool,
 }
 
-/// A time in which an aircraft stays on the ground: if it lands at `start` or later and before `end`, it is not ready
-/// before `end`.
+/// A time in which an aircraft stays on the ground: if it lands at `start` or later and before
+/// `end`, it is not ready before `end`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Outage {
     /// The aircraft.

@@ -2,7 +2,8 @@
 
 use crate::Matrix;
 
-/// Fares, dollars a passenger, `[from][to]`: one table for the whole day, or one for each demand period.
+/// Fares, dollars a passenger, `[from][to]`: one table for the whole day, or one for each demand
+/// period.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fares {
     first: Matrix<f64>,
@@ -11,7 +12,8 @@ pub struct Fares {
 }
 
 impl Fares {
-    /// Fares that change with the demand period in which a flight is decided, one table for each period.
+    /// Fares that change with the demand period in which a flight is decided, one table for each
+    /// period.
     ///
     /// # Panics
     /// If `tables` is empty.

@@ -1,12 +1,13 @@
-//! The divisors of the features of learned policies (§IV.A): fixed numbers of the network file, never learned from
-//! days.
+//! The divisors of the features of learned policies (§IV.A): fixed numbers of the network file,
+//! never learned from days.
 
 use serde::{Deserialize, Serialize};
 
 use crate::scenario::Day;
 use crate::{AircraftType, Error, Matrix, limits};
 
-/// The size that each quantity typically has in a network; a feature is the quantity divided by it. All are above 0.
+/// The size that each quantity typically has in a network; a feature is the quantity divided by it.
+/// All are above 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "RawFeatureScales")]
 pub struct FeatureScales {
@@ -27,8 +28,8 @@ pub struct FeatureScales {
 }
 
 impl FeatureScales {
-    /// Scales for a network whose file has none: the mean of each quantity. `mean_demand` is the mean demand of each
-    /// period.
+    /// Scales for a network whose file has none: the mean of each quantity. `mean_demand` is the
+    /// mean demand of each period.
     pub(crate) fn typical(day: &Day, mean_demand: &[Matrix<f64>]) -> Self {
         let pairs =
             |matrix: &Matrix<f64>| mean(matrix.cells().iter().copied().filter(|&x| x > 0.0));

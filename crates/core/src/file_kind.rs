@@ -1,4 +1,5 @@
-//! The kinds of files that commands read, for an error that says so when a file of one kind is given for the other.
+//! The kinds of files that commands read, for an error that says so when a file of one kind is
+//! given for the other.
 
 use std::fmt;
 

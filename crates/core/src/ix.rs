@@ -1,4 +1,5 @@
-//! Index newtypes: positions in a scenario's lists. String ids live only at the edges (files, messages).
+//! Index newtypes: positions in a scenario's lists. String ids live only at the edges (files,
+//! messages).
 
 macro_rules! index {
     ($(#[$doc:meta])* $name:ident) => {

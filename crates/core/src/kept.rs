@@ -1,12 +1,14 @@
-//! What a changed network keeps of the one that it was made from, so that the days of both are comparable: where aircraft
-//! start, and the fares at which the demand was measured. Both are written into the changed file.
+//! What a changed network keeps of the one that it was made from, so that the days of both are
+//! comparable: where aircraft start, and the fares at which the demand was measured. Both are
+//! written into the changed file.
 
 use toml_edit::{Array, DocumentMut, Item, Table, Value, value};
 
 use crate::Network;
 use crate::edit::whole_numbers;
 
-/// The members of `[tariffs]` that fares follow from. The level of all fares is not among them: it is 1 at the reference.
+/// The members of `[tariffs]` that fares follow from. The level of all fares is not among them: it
+/// is 1 at the reference.
 const FARES: [&str; 7] = [
     "passenger_cost_usd_per_mi",
     "fare_usd_per_mi",
@@ -29,7 +31,8 @@ pub(crate) fn keep_start_stands(base: &Network, file: &mut Table) {
     }
 }
 
-/// Makes the demand that of the base's fares, if passengers respond and the fares of the file are others.
+/// Makes the demand that of the base's fares, if passengers respond and the fares of the file are
+/// others.
 pub(crate) fn keep_reference(base: &Network, file: &mut Table) {
     if !responds(file) {
         return;

@@ -1,7 +1,8 @@
 //! Bounds of every number in a network or scenario, in one place, and their wording in messages.
 //!
-//! The bounds are wide. They keep every sum of durations, seats or dollars within the range of its type, and they
-//! reveal a slipped decimal point when the file is read rather than as a strange result.
+//! The bounds are wide. They keep every sum of durations, seats or dollars within the range of its
+//! type, and they reveal a slipped decimal point when the file is read rather than as a strange
+//! result.
 
 use std::fmt::Debug;
 
@@ -106,8 +107,8 @@ pub(crate) mod entries {
     pub(crate) const CORRIDORS: usize = 65_536;
     pub(crate) const CLOSURES: usize = 10_000;
     pub(crate) const OUTAGES: usize = 10_000;
-    /// Cells of all demand tables together, bounded so that many copies of a day fit in memory and one fits in the
-    /// longest file.
+    /// Cells of all demand tables together, bounded so that many copies of a day fit in memory and
+    /// one fits in the longest file.
     pub(crate) const DEMAND: usize = 4_000_000;
 }
 
@@ -117,8 +118,8 @@ pub(crate) const SEED_LIMIT: u64 = 1 << 53;
 /// The latest time of day that operations and periods may name.
 pub(crate) const LATEST: Time = Time::from_seconds(36 * 3600);
 
-/// The shortest take-off and landing together. A flight over no distance lasts this long, which bounds the number of
-/// decisions of a day.
+/// The shortest take-off and landing together. A flight over no distance lasts this long, which
+/// bounds the number of decisions of a day.
 pub(crate) const FLIGHT_S: Limits = Limits::between(60.0, f64::INFINITY)
     .hint("flights that take no time would let a day go on for ever");
 pub(crate) const PHASE_S: Limits = Limits::whole(0, 86_400);
@@ -135,13 +136,14 @@ pub(crate) const STANDS: Limits = Limits::whole(1, 10_000)
 pub(crate) const CHARGERS: Limits = Limits::whole(1, 10_000)
     .hint("chargers counts the aircraft that charge at the vertiport or are on their way to it");
 
-/// A slot of delays lasts at least as long as the shortest flight, so that a day has a bounded number of slots.
+/// A slot of delays lasts at least as long as the shortest flight, so that a day has a bounded
+/// number of slots.
 pub(crate) const SLOT_S: Limits = Limits::whole(60, 86_400);
 
 pub(crate) const SEATS: Limits =
     Limits::whole(1, 1_000).hint("seats counts passengers, not the pilot");
-// The least speed and charging power bound a flight to 1,000 hours and a charge to 5,000, so that every time of a day
-// can be written in the four digits for hours that `Time` reads.
+// The least speed and charging power bound a flight to 1,000 hours and a charge to 5,000, so that
+// every time of a day can be written in the four digits for hours that `Time` reads.
 pub(crate) const SPEED_MPH: Limits = Limits::between(10.0, 1_000.0);
 pub(crate) const BATTERY_KWH: Limits = Limits::above_zero(5_000.0);
 pub(crate) const ENERGY_KWH_PER_MI: Limits = Limits::above_zero(1e3);
@@ -153,30 +155,35 @@ pub(crate) const DISTANCE_MI: Limits = Limits::between(0.0, 1e4);
 pub(crate) const MONEY_USD: Limits = Limits::between(0.0, 1e6);
 pub(crate) const ENERGY_PRICE_USD: Limits =
     Limits::between(0.0, 1e3).hint("the price is in dollars per kWh");
-/// Tariffs in dollars a passenger-mile, and the numbers that turn costs into fares. The fares have bounds of their own.
+/// Tariffs in dollars a passenger-mile, and the numbers that turn costs into fares. The fares have
+/// bounds of their own.
 pub(crate) const TARIFF: Limits = Limits::between(0.0, 1e3);
 pub(crate) const FEATURE_SCALE: Limits =
     Limits::above_zero(1e9).hint("a learned policy sees each quantity divided by its scale");
-/// A type may have no aircraft, so that studies can do without it; the whole fleet has one at least.
+/// A type may have no aircraft, so that studies can do without it; the whole fleet has one at
+/// least.
 pub(crate) const FLEET_COUNT: Limits = Limits::whole(0, 10_000);
-/// Mean and standard deviation of a period's demand; far enough below `PASSENGERS` for any draw to stay within it.
+/// Mean and standard deviation of a period's demand; far enough below `PASSENGERS` for any draw to
+/// stay within it.
 pub(crate) const DEMAND_MEAN: Limits = Limits::between(0.0, 1e5);
 pub(crate) const DEMAND_SD: Limits = Limits::between(0.0, 1e4);
 /// Mean passengers of a pair in a whole day, and a network's total of them.
 pub(crate) const DAILY_DEMAND: Limits = Limits::between(0.0, 1e5);
 pub(crate) const SHARE_PERCENT: Limits = Limits::between(0.0, 100.0).hint("100 is the whole day");
 pub(crate) const WEIGHT: Limits = Limits::between(0.0, 1e6);
-/// Standard deviation as a share of the mean. Draws stay within `PASSENGERS`, because a normal deviation is below 10.
+/// Standard deviation as a share of the mean. Draws stay within `PASSENGERS`, because a normal
+/// deviation is below 10.
 pub(crate) const NOISE: Limits = Limits::between(0.0, 0.4)
     .hint("noise is a standard deviation as a share of the mean, 0.1 is 10 %");
-/// The variance of passengers in excess of a Poisson draw's, as a share of the mean's square. A dispersion far below
-/// the least would be lost in the rounding of the gamma draw.
+/// The variance of passengers in excess of a Poisson draw's, as a share of the mean's square. A
+/// dispersion far below the least would be lost in the rounding of the gamma draw.
 pub(crate) const DISPERSION: Limits =
     Limits::between(1e-6, 10.0).hint("the variance is mean + dispersion x mean^2");
 pub(crate) const PROBABILITY: Limits =
     Limits::between(0.0, 1.0).hint("a probability is a share, 0.1 is 10 %");
 pub(crate) const SURGE_FACTOR: Limits = Limits::between(1.0, 10.0);
-/// A factor on the whole demand of a network. Draws times this and times the response to fares are cut at `PASSENGERS`.
+/// A factor on the whole demand of a network. Draws times this and times the response to fares are
+/// cut at `PASSENGERS`.
 pub(crate) const DEMAND_FACTOR: Limits = Limits::between(0.0, 100.0);
 pub(crate) const ELASTICITY: Limits = Limits::between(0.0, 20.0)
     .hint("elasticity is by how many percent demand falls where fares rise by one percent, 1.2 for example");

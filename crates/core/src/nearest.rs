@@ -1,7 +1,7 @@
 //! Finds the name that was probably meant by a mistyped one.
 
-/// The name that differs from `typed` in the fewest letters, if so few differ that it may have been meant: at most one
-/// in three. Capitals and small letters count as the same.
+/// The name that differs from `typed` in the fewest letters, if so few differ that it may have been
+/// meant: at most one in three. Capitals and small letters count as the same.
 pub fn nearest<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let typed = typed.to_lowercase();
     let most = typed.chars().count().div_ceil(3);
@@ -9,10 +9,12 @@ pub fn nearest<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Opt
     names.into_iter().min_by_key(distance).filter(|name| distance(name) <= most)
 }
 
-/// The number of letters to insert, remove, exchange or swap with their neighbour to turn one word into the other.
+/// The number of letters to insert, remove, exchange or swap with their neighbour to turn one word
+/// into the other.
 fn letters_that_differ(one: &str, other: &str) -> usize {
     let (one, other): (Vec<char>, Vec<char>) = (one.chars().collect(), other.chars().collect());
-    // `rows[i][j]` is the distance between the first `i` letters of `one` and the first `j` letters of `other`.
+    // `rows[i][j]` is the distance between the first `i` letters of `one` and the first `j` letters
+    // of `other`.
     let mut rows: Vec<Vec<usize>> = vec![(0..=other.len()).collect()];
     for (i, letter) in one.iter().enumerate() {
         let mut row = vec![i + 1];

@@ -92,7 +92,8 @@ pub(crate) fn network(text: &str, folder: Option<&Path>, origin: &str) -> Result
 }
 
 impl RawNetwork {
-    /// The table of demand that the file names, with the hourly demand it belongs to and the folder to read it from.
+    /// The table of demand that the file names, with the hourly demand it belongs to and the folder
+    /// to read it from.
     fn table<'a>(
         &'a self,
         folder: Option<&'a Path>,
@@ -264,7 +265,8 @@ fn time_zone(zone: &str, origin: &str) -> Result<(), Error> {
     Err(Error::BadId { origin: origin.to_owned(), member, rule: RULE, found })
 }
 
-/// The aircraft, numbered from `A01`, each on the first free stand; a drawn day places them elsewhere.
+/// The aircraft, numbered from `A01`, each on the first free stand; a drawn day places them
+/// elsewhere.
 fn fleet(
     raw: &[RawFleet],
     aircraft_types: &[AircraftType],

@@ -1,4 +1,5 @@
-//! Reads text into raw structs: JSON and TOML, with one shape of error that names member, line and column.
+//! Reads text into raw structs: JSON and TOML, with one shape of error that names member, line and
+//! column.
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -103,8 +104,8 @@ fn json_value<T: DeserializeOwned>(text: &[u8], origin: &str) -> Result<T, Error
         let position = format!(" at line {line} column {}", error.column());
         let problem = message.strip_suffix(&position).unwrap_or(&message);
         let place = Place { origin, line, column };
-        // `serde_json` reports a number that no `f64` holds as a syntax error, but it belongs to a member that can be
-        // named.
+        // `serde_json` reports a number that no `f64` holds as a syntax error, but it belongs to a
+        // member that can be named.
         if error.is_data() || problem == "number out of range" {
             place.wrong_member(path, problem)
         } else {

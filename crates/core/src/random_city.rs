@@ -1,8 +1,8 @@
 //! Networks like those of real cities, drawn from a number, to learn on.
 //!
-//! [`random_network`](crate::random_network) draws networks whose flights are mostly full. In cities a pair has a few
-//! passengers an hour, spread by gravity and drawn one by one; two types of aircraft fly; energy and fares may change with
-//! the hour; and days go wrong.
+//! [`random_network`](crate::random_network) draws networks whose flights are mostly full. In
+//! cities a pair has a few passengers an hour, spread by gravity and drawn one by one; two types of
+//! aircraft fly; energy and fares may change with the hour; and days go wrong.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -18,7 +18,8 @@ const FIRST_HOUR: usize = 6;
 
 /// Draws a network of 5 to 40 vertiports and 10 to 200 aircraft, and reads it.
 ///
-/// Different purposes never share a network, so a policy trained on some can be evaluated on others.
+/// Different purposes never share a network, so a policy trained on some can be evaluated on
+/// others.
 pub fn random_city(purpose: Purpose, number: u64) -> Network {
     let text = text(purpose, number);
     Network::from_toml(&text, "a random city").expect("every number drawn is within its bounds")
@@ -87,8 +88,8 @@ fn write_fleet(text: &mut String, fleet: usize, random: &mut ChaCha8Rng) {
     }
 }
 
-/// Fares by the mile, of which half of the cities have higher ones in their peaks, and a price of energy, which half of them
-/// have by the hour.
+/// Fares by the mile, of which half of the cities have higher ones in their peaks, and a price of
+/// energy, which half of them have by the hour.
 fn write_tariffs(text: &mut String, hours: usize, random: &mut ChaCha8Rng) {
     put(
         text,
@@ -145,7 +146,8 @@ fn write_demand(
     );
 }
 
-/// Errors of the forecast, late take-offs, closures around a vertiport, and aircraft out of service.
+/// Errors of the forecast, late take-offs, closures around a vertiport, and aircraft out of
+/// service.
 fn write_disturbances(text: &mut String, vertiports: usize, random: &mut ChaCha8Rng) {
     put(
         text,

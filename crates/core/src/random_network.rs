@@ -1,7 +1,9 @@
-//! Networks drawn from a number, to learn on, and to measure a policy on networks that it never saw.
+//! Networks drawn from a number, to learn on, and to measure a policy on networks that it never
+//! saw.
 //!
-//! They differ in everything that a network file says: 5 to 30 vertiports, 10 to 150 aircraft, distances, stands,
-//! seats, speeds, prices, and demand from half to ten times what the fleet could carry.
+//! They differ in everything that a network file says: 5 to 30 vertiports, 10 to 150 aircraft,
+//! distances, stands, seats, speeds, prices, and demand from half to ten times what the fleet could
+//! carry.
 
 use std::fmt::Write;
 
@@ -9,9 +11,11 @@ use crate::{Network, Purpose};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Draws a network file and reads it. [`Network::find`] finds the random comparison networks by `random:NUMBER`.
+/// Draws a network file and reads it. [`Network::find`] finds the random comparison networks by
+/// `random:NUMBER`.
 ///
-/// Different purposes never share a network, so a policy trained on some can be evaluated on others.
+/// Different purposes never share a network, so a policy trained on some can be evaluated on
+/// others.
 pub fn random_network(purpose: Purpose, number: u64) -> Network {
     let text = text(purpose, number);
     Network::from_toml(&text, "a random network").expect("every number drawn is within its bounds")
@@ -62,8 +66,8 @@ fn text(purpose: Purpose, number: u64) -> String {
     text
 }
 
-/// Writes vertiports in a square small enough for most pairs to be within range, with 1.1 to 1.6 stands for each
-/// aircraft in all.
+/// Writes vertiports in a square small enough for most pairs to be within range, with 1.1 to 1.6
+/// stands for each aircraft in all.
 fn write_vertiports(text: &mut String, vertiports: usize, fleet: usize, random: &mut ChaCha8Rng) {
     let side_mi = random.random_range(20.0..45.0);
     let stands = fleet as f64 * random.random_range(1.1..1.6);
@@ -86,7 +90,8 @@ fn write_vertiports(text: &mut String, vertiports: usize, fleet: usize, random: 
     }
 }
 
-/// Writes demand between half and ten times what the fleet can carry at about 0.8 flights an hour for each aircraft.
+/// Writes demand between half and ten times what the fleet can carry at about 0.8 flights an hour
+/// for each aircraft.
 fn write_demand(
     text: &mut String,
     vertiports: usize,
@@ -97,8 +102,8 @@ fn write_demand(
 ) {
     let capacity = 0.8 * fleet as f64 * f64::from(seats);
     let abundance = 0.5 * libm::pow(20.0, random.random_range(0.0..1.0));
-    // The mean is at least enough for a flight to pay. Otherwise few aircraft among many vertiports would find single
-    // passengers scattered over many pairs.
+    // The mean is at least enough for a flight to pay. Otherwise few aircraft among many vertiports
+    // would find single passengers scattered over many pairs.
     let mean =
         (abundance * capacity / (vertiports * (vertiports - 1)) as f64).max(0.7 * f64::from(seats));
     let spread = random.random_range(0.1..0.4);

@@ -1,5 +1,5 @@
-//! The network of the paper at other places, drawn from a number, as the public code of its authors draws them anew for
-//! each day.
+//! The network of the paper at other places, drawn from a number, as the public code of its authors
+//! draws them anew for each day.
 
 use std::fmt::Write;
 use std::ops::RangeInclusive;
@@ -19,11 +19,12 @@ const AIRCRAFT_A_VERTIPORT: usize = 5;
 /// The numbers of vertiports that [`random_places`] takes.
 pub const RANDOM_PLACES: RangeInclusive<usize> = 2..=60;
 
-/// Draws the places of `vertiports` vertiports, evenly over a square of 50 miles. All else is as in `paper`: of 8
-/// vertiports 3 are busy and there are 40 aircraft, and other numbers have as many in proportion. Pairs that are more
-/// than 50 miles apart cannot be flown.
+/// Draws the places of `vertiports` vertiports, evenly over a square of 50 miles. All else is as in
+/// `paper`: of 8 vertiports 3 are busy and there are 40 aircraft, and other numbers have as many in
+/// proportion. Pairs that are more than 50 miles apart cannot be flown.
 ///
-/// Different purposes never share a network, so a policy trained on some can be evaluated on others.
+/// Different purposes never share a network, so a policy trained on some can be evaluated on
+/// others.
 ///
 /// # Errors
 /// [`Error::UnknownNetwork`] for a number of vertiports outside [`RANDOM_PLACES`].

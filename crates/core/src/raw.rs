@@ -1,8 +1,8 @@
-//! The parts that scenario and network files share, as they are written. Any number is allowed here; the next stage
-//! checks it.
+//! The parts that scenario and network files share, as they are written. Any number is allowed
+//! here; the next stage checks it.
 //!
-//! Whole numbers are read as `f64` on purpose, so that `-1` or `2.5` stands are refused with the rule that they break
-//! and not with a message about types.
+//! Whole numbers are read as `f64` on purpose, so that `-1` or `2.5` stands are refused with the
+//! rule that they break and not with a message about types.
 
 use std::collections::HashMap;
 

@@ -1,13 +1,15 @@
 //! One operating day: everything exogenous, nothing left to be drawn.
 //!
-//! [`Day`] is the open form that readers and draws fill in. [`Scenario`] is a day that passed [`Day::check`] and can no
-//! longer be changed, so code may rely on every rule that `check.rs` states.
+//! [`Day`] is the open form that readers and draws fill in. [`Scenario`] is a day that passed
+//! [`Day::check`] and can no longer be changed, so code may rely on every rule that `check.rs`
+//! states.
 
 use std::ops::Deref;
 
 use crate::{Disturbances, Fares, Matrix, Route, Time, TypeIx, VertiportIx};
 
-/// When decisions are taken, and how long each part of a flight takes apart from cruise and charging.
+/// When decisions are taken, and how long each part of a flight takes apart from cruise and
+/// charging.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Operations {
     /// First instant at which an aircraft may decide.
@@ -20,7 +22,8 @@ pub struct Operations {
     pub landing_s: u32,
     /// Seconds until an aircraft that holds is asked again (t_wait).
     pub hold_s: u32,
-    /// Seconds for which passengers who were not carried wait into the next demand period; 0 in the paper.
+    /// Seconds for which passengers who were not carried wait into the next demand period; 0 in the
+    /// paper.
     pub passenger_wait_s: u32,
 }
 
@@ -33,11 +36,11 @@ pub struct Vertiport {
     pub x_mi: f64,
     /// Position north, miles.
     pub y_mi: f64,
-    /// U_max: the number of aircraft that may stand here or be on their way here (Eq. 16). Where `chargers` are counted
-    /// apart, the number of aircraft that may wait here beside them.
+    /// U_max: the number of aircraft that may stand here or be on their way here (Eq. 16). Where
+    /// `chargers` are counted apart, the number of aircraft that may wait here beside them.
     pub stands: u16,
-    /// Number of chargers, where they are counted apart from stands. A flight here needs a charger from take-off on;
-    /// the aircraft frees it when it leaves, or when it holds and finds a stand.
+    /// Number of chargers, where they are counted apart from stands. A flight here needs a charger
+    /// from take-off on; the aircraft frees it when it leaves, or when it holds and finds a stand.
     pub chargers: Option<u16>,
     /// Whether the vertiport belongs to V_B, the vertiports with high demand (Eq. 1).
     pub busy: bool,
@@ -45,7 +48,8 @@ pub struct Vertiport {
     pub degrees: Option<Degrees>,
     /// Cost of each stand, whether or not it is used; dollars a day, 0 in the paper.
     pub stand_cost_usd: f64,
-    /// Cost of each charger that is counted apart from stands, whether or not it is used; dollars a day.
+    /// Cost of each charger that is counted apart from stands, whether or not it is used; dollars a
+    /// day.
     pub charger_cost_usd: f64,
 }
 
@@ -81,14 +85,15 @@ pub struct AircraftType {
     pub energy_kwh_per_mi: f64,
     /// P_max: charging power, kW.
     pub charge_kw: f64,
-    /// γ: share of the battery's capacity lost in an hour of flight, beside the energy that flying takes. On a stand
-    /// the charger makes up for it.
+    /// γ: share of the battery's capacity lost in an hour of flight, beside the energy that flying
+    /// takes. On a stand the charger makes up for it.
     pub self_discharge_per_h: f64,
 }
 
 impl AircraftType {
-    /// Whether a full battery lasts for a flight of this energy (Eq. 12). Both energies are rounded to whole
-    /// milliwatt-hours, so that a pair exactly at the end of the range can be flown whichever way a product rounds.
+    /// Whether a full battery lasts for a flight of this energy (Eq. 12). Both energies are rounded
+    /// to whole milliwatt-hours, so that a pair exactly at the end of the range can be flown
+    /// whichever way a product rounds.
     pub fn lasts_for(&self, energy_kwh: f64) -> bool {
         let whole_mwh = |kwh: f64| (1e6 * kwh).round();
         whole_mwh(energy_kwh) <= whole_mwh(self.battery_kwh)
@@ -106,7 +111,8 @@ pub struct Aircraft {
     pub at: VertiportIx,
 }
 
-/// One operating day in its open form, with the members of the scenario file; see [`Scenario`] for the checked form.
+/// One operating day in its open form, with the members of the scenario file; see [`Scenario`] for
+/// the checked form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Day {
     /// Name of the day, for example `paper-7`.
@@ -129,7 +135,8 @@ pub struct Day {
     pub fare_usd: Fares,
     /// R_ij, dollars a passenger.
     pub passenger_cost_usd: Matrix<f64>,
-    /// Cost of a flight with or without passengers, beside its energy; dollars a flight, all 0 in the paper.
+    /// Cost of a flight with or without passengers, beside its energy; dollars a flight, all 0 in
+    /// the paper.
     pub flight_cost_usd: Matrix<f64>,
     /// Cost of each aircraft of the fleet, whether or not it flies; dollars a day, 0 in the paper.
     pub aircraft_cost_usd: f64,
@@ -143,10 +150,11 @@ pub struct Day {
     pub disturbances: Disturbances,
 }
 
-/// A checked day: shapes agree, numbers are finite and within bounds, ids are unique, no vertiport has more aircraft
-/// than stands.
+/// A checked day: shapes agree, numbers are finite and within bounds, ids are unique, no vertiport
+/// has more aircraft than stands.
 ///
-/// A scenario can be read like a [`Day`]. To change one, take it apart with [`Scenario::into_day`] and check it again.
+/// A scenario can be read like a [`Day`]. To change one, take it apart with [`Scenario::into_day`]
+/// and check it again.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scenario(Day);
 
@@ -161,8 +169,8 @@ impl Scenario {
         self.0
     }
 
-    /// The day as it is expected before it begins: its demand is the forecast, and closures that are not known, delays
-    /// and outages do not happen.
+    /// The day as it is expected before it begins: its demand is the forecast, and closures that
+    /// are not known, delays and outages do not happen.
     #[must_use]
     pub fn expected(&self) -> Self {
         let Disturbances { forecast, closures, .. } = &self.disturbances;
@@ -181,7 +189,8 @@ impl Scenario {
         self.periods.iter().rposition(|&start| start <= time).unwrap_or(0)
     }
 
-    /// Whether a pair may be flown, because there are no corridors or because one of them leads that way.
+    /// Whether a pair may be flown, because there are no corridors or because one of them leads
+    /// that way.
     pub fn is_corridor(&self, from: VertiportIx, to: VertiportIx) -> bool {
         let corridors = self.corridors.as_ref();
         corridors.is_none_or(|routes| routes.iter().any(|route| route.covers(from, to)))

@@ -1,4 +1,5 @@
-//! `[[closures]]` of the network file: closures at the same times every day, such as a night curfew or a morning fog.
+//! `[[closures]]` of the network file: closures at the same times every day, such as a night curfew
+//! or a morning fog.
 
 use serde::Deserialize;
 
@@ -16,7 +17,8 @@ pub(crate) struct RawScheduledClosure {
     routes: Vec<RawRoute>,
     #[serde(default)]
     vertiports: Vec<String>,
-    /// Closures that come at the same time every day are known in advance, unless the file says otherwise.
+    /// Closures that come at the same time every day are known in advance, unless the file says
+    /// otherwise.
     #[serde(default = "announced")]
     known: bool,
 }
@@ -35,7 +37,8 @@ pub(crate) fn closures(
     let mut closures = Vec::new();
     for (at, raw) in raw.into_iter().enumerate() {
         closures.extend(raw.check(at, places, vertiports, origin)?);
-        // The length is checked as the list grows, because each vertiport of a closure stands for many routes.
+        // The length is checked as the list grows, because each vertiport of a closure stands for
+        // many routes.
         at_most(closures.len(), origin)?;
     }
     Ok(closures)

@@ -1,4 +1,5 @@
-//! Seeds of days. Training, validation and comparison have disjoint ranges, so that they never share a day.
+//! Seeds of days. Training, validation and comparison have disjoint ranges, so that they never
+//! share a day.
 //!
 //! | purpose | seeds | made from |
 //! |---|---|---|
@@ -63,7 +64,8 @@ impl Purpose {
     }
 }
 
-/// The seed of one day, below 2^53. It alone determines the day that [`Network::draw`](crate::Network::draw) returns.
+/// The seed of one day, below 2^53. It alone determines the day that
+/// [`Network::draw`](crate::Network::draw) returns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct DaySeed(u64);
 

@@ -1,9 +1,10 @@
 //! The positions of vertiports and the distances between them, in the plane or on the globe.
 //!
-//! A network file places its vertiports either in miles on a plane or by latitude and longitude. With the latter,
-//! distances are great circles (haversine), and the plane is an equirectangular projection about the vertiports'
-//! middle; it is good enough for maps of a region and used for nothing else. Angles go through the `libm` crate,
-//! because the results of the system's library depend on the machine.
+//! A network file places its vertiports either in miles on a plane or by latitude and longitude.
+//! With the latter, distances are great circles (haversine), and the plane is an equirectangular
+//! projection about the vertiports' middle; it is good enough for maps of a region and used for
+//! nothing else. Angles go through the `libm` crate, because the results of the system's library
+//! depend on the machine.
 
 use serde::Deserialize;
 
@@ -47,7 +48,8 @@ pub(crate) enum Position {
 }
 
 impl Sites {
-    /// Checks the vertiports. `costs` are those of stands and chargers at vertiports that name none.
+    /// Checks the vertiports. `costs` are those of stands and chargers at vertiports that name
+    /// none.
     pub(crate) fn of(raw: Vec<RawSite>, costs: SiteCosts, origin: &str) -> Result<Self, Error> {
         let sites = each(raw, |raw, at| raw.check(at, costs, origin))?;
         let on_globe =
@@ -64,8 +66,8 @@ impl Sites {
         }
     }
 
-    /// Distances are straight lines. Products, sum and root are exact to the last bit on every machine, which `hypot`
-    /// is not.
+    /// Distances are straight lines. Products, sum and root are exact to the last bit on every
+    /// machine, which `hypot` is not.
     fn in_plane(vertiports: Vec<Vertiport>) -> Self {
         let distance_mi = Matrix::from_fn(vertiports.len(), |from, to| {
             let (from, to) = (&vertiports[from.at()], &vertiports[to.at()]);
@@ -100,8 +102,9 @@ impl Sites {
     }
 }
 
-/// Where places lie on both sides of the antimeridian, counts longitudes in the east on past 180 degrees, so that the plane
-/// shows neighbours beside each other. Others are left as they are, to the bit.
+/// Where places lie on both sides of the antimeridian, counts longitudes in the east on past 180
+/// degrees, so that the plane shows neighbours beside each other. Others are left as they are, to
+/// the bit.
 fn count_past_antimeridian(places: &mut [(f64, f64)]) {
     let longitudes = || places.iter().map(|place| place.1);
     let west = longitudes().fold(f64::INFINITY, f64::min);
@@ -177,7 +180,8 @@ impl RawSite {
     }
 }
 
-/// The great-circle distance by the haversine formula, miles; places are latitude and longitude in degrees.
+/// The great-circle distance by the haversine formula, miles; places are latitude and longitude in
+/// degrees.
 pub fn great_circle_mi(from: (f64, f64), to: (f64, f64)) -> f64 {
     let (from_north, to_north) = (from.0.to_radians(), to.0.to_radians());
     let half_north = libm::sin((to_north - from_north) / 2.0);

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A handle to ask work to end, from any thread. All clones share one request, which cannot be taken back.
+/// A handle to ask work to end, from any thread. All clones share one request, which cannot be
+/// taken back.
 #[derive(Debug, Clone, Default)]
 pub struct Stop(Arc<AtomicBool>);
 

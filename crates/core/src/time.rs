@@ -60,8 +60,8 @@ pub struct NotATime(pub String);
 impl FromStr for Time {
     type Err = NotATime;
 
-    /// Reads `HH:MM:SS`. Hours may have one digit and may pass 24 (at most four digits); minutes and seconds are two
-    /// digits below 60.
+    /// Reads `HH:MM:SS`. Hours may have one digit and may pass 24 (at most four digits); minutes
+    /// and seconds are two digits below 60.
     fn from_str(text: &str) -> Result<Self, NotATime> {
         let wrong = || NotATime(text.chars().take(40).collect());
         let number = |part: &str, digits: std::ops::RangeInclusive<usize>| {

@@ -1,4 +1,5 @@
-//! Worlds that days are drawn from: one network, or networks that are drawn too, a new one for each day.
+//! Worlds that days are drawn from: one network, or networks that are drawn too, a new one for each
+//! day.
 
 use std::sync::Arc;
 
@@ -19,11 +20,12 @@ const RANDOM: &str = "random";
 const PLACES: &str = "random-places:";
 
 impl World {
-    /// Finds the world of this name: `random`, `random-places:8`, or a network as [`Network::find`] does.
+    /// Finds the world of this name: `random`, `random-places:8`, or a network as [`Network::find`]
+    /// does.
     ///
     /// # Errors
-    /// The errors of [`Network::find`], and [`Error::UnknownNetwork`] for a number of vertiports outside
-    /// [`RANDOM_PLACES`](crate::RANDOM_PLACES).
+    /// The errors of [`Network::find`], and [`Error::UnknownNetwork`] for a number of vertiports
+    /// outside [`RANDOM_PLACES`](crate::RANDOM_PLACES).
     pub fn find(name: &str) -> Result<Self, Error> {
         if name == RANDOM {
             return Ok(Self::Random);
@@ -64,11 +66,12 @@ impl World {
         }
     }
 
-    /// The network of the day of a purpose with this number. Networks of different purposes are never the same, unless
-    /// there is only one.
+    /// The network of the day of a purpose with this number. Networks of different purposes are
+    /// never the same, unless there is only one.
     ///
     /// # Panics
-    /// Never panics: numbers of vertiports were checked when the world was made by [`find`](Self::find).
+    /// Never panics: numbers of vertiports were checked when the world was made by
+    /// [`find`](Self::find).
     pub fn network(&self, purpose: Purpose, number: u64) -> Arc<Network> {
         match self {
             Self::Network(network) => Arc::clone(network),

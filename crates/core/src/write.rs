@@ -1,4 +1,5 @@
-//! Writes the scenario file, with one line for each entry or matrix row, and numbers as short as they read back.
+//! Writes the scenario file, with one line for each entry or matrix row, and numbers as short as
+//! they read back.
 
 use std::fmt::Write;
 use std::path::Path;

@@ -1,11 +1,12 @@
 //! The calendar of a day: which instant a time of the day is.
 //!
-//! The clock of a day runs evenly, and all durations of the day are read off it. So it is not the wall clock on a date
-//! on which summer time begins or ends: that clock skips or repeats an hour. As in GTFS and in live days, seconds are
-//! counted from twelve hours before noon of the date, which is midnight on every other date. No time of a day falls
-//! into a gap or has two meanings, flights last as long as they do in the day, and all formats name the same instants.
-//! The clock agrees with the wall clock at noon, hence from the change of the clock on; before it, on such a date, the
-//! two differ by the hour that is skipped or repeated.
+//! The clock of a day runs evenly, and all durations of the day are read off it. So it is not the
+//! wall clock on a date on which summer time begins or ends: that clock skips or repeats an hour.
+//! As in GTFS and in live days, seconds are counted from twelve hours before noon of the date,
+//! which is midnight on every other date. No time of a day falls into a gap or has two meanings,
+//! flights last as long as they do in the day, and all formats name the same instants. The clock
+//! agrees with the wall clock at noon, hence from the change of the clock on; before it, on such a
+//! date, the two differ by the hour that is skipped or repeated.
 
 use std::ops::RangeInclusive;
 
@@ -30,8 +31,9 @@ pub struct Calendar {
 }
 
 impl Calendar {
-    /// The calendar of a date such as `2026-11-24` in a time zone such as `America/New_York`. The rules of time zones
-    /// are those that this program was built with, so that every machine has the same ones.
+    /// The calendar of a date such as `2026-11-24` in a time zone such as `America/New_York`. The
+    /// rules of time zones are those that this program was built with, so that every machine has
+    /// the same ones.
     ///
     /// # Errors
     /// [`Error::BadDate`] (V722) and [`Error::UnknownZone`] (V723).
@@ -77,7 +79,8 @@ fn seconds_after(instant: Timestamp, seconds: i64) -> Timestamp {
 fn checked_date(text: &str) -> Result<Date, Error> {
     const RULE: &str = "a date from 1970-01-01 to 2199-12-31, written as YYYY-MM-DD";
     let date = text.parse::<Date>().ok();
-    // jiff reads other forms too, and a date with a time. One form is enough, and a mistake is found.
+    // jiff reads other forms too, and a date with a time. One form is enough, and a mistake is
+    // found.
     let date = date.filter(|date| date.to_string() == text && YEARS.contains(&date.year()));
     date.ok_or_else(|| Error::BadDate { rule: RULE, found: shortened(text) })
 }

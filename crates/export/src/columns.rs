@@ -1,4 +1,5 @@
-//! The columns of the tables: what CSV and Parquet say about a decision, under the same names and in the same order.
+//! The columns of the tables: what CSV and Parquet say about a decision, under the same names and
+//! in the same order.
 
 use vertifleet_core::{Degrees, Time};
 

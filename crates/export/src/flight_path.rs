@@ -1,5 +1,5 @@
-//! Where an aircraft is during its flight: at its vertiport while it boards and takes off, on a great circle while it
-//! cruises, at the other vertiport while it lands.
+//! Where an aircraft is during its flight: at its vertiport while it boards and takes off, on a
+//! great circle while it cruises, at the other vertiport while it lands.
 
 use vertifleet_core::{Degrees, Operations, Time};
 
@@ -56,9 +56,9 @@ fn pieces(way: &GreatCircle) -> u32 {
     ((way.length_mi() / STEP_MI).ceil() as u32).clamp(1, MOST_PIECES)
 }
 
-/// When the cruise begins and ends. It ends when landing begins, and lasts as long as the distance takes (Eq. 7); what
-/// is left before it is take-off and delay. A flight of a live day may be shorter than that; it cruises all the time
-/// then.
+/// When the cruise begins and ends. It ends when landing begins, and lasts as long as the distance
+/// takes (Eq. 7); what is left before it is take-off and delay. A flight of a live day may be
+/// shorter than that; it cruises all the time then.
 fn cruise(flight: &Taken<'_>, operations: &Operations) -> (Time, Time) {
     let (departure, arrival) = (flight.row.time, flight.row.arrival);
     let cruise_s = cruise_s(flight);

@@ -1,18 +1,20 @@
-//! A day with the decisions that were taken on it, checked once, so that no format has to refuse a row.
+//! A day with the decisions that were taken on it, checked once, so that no format has to refuse a
+//! row.
 
 use vertifleet_core::{Aircraft, AircraftType, Degrees, Scenario, Time, Vertiport};
 use vertifleet_sim::TraceRow;
 
 use crate::Error;
 
-/// The first time that is too late for a row. A trace file writes four digits for hours, and Parquet has 32 bits for
-/// seconds.
+/// The first time that is too late for a row. A trace file writes four digits for hours, and
+/// Parquet has 32 bits for seconds.
 const TOO_LATE: Time = Time::from_seconds(10_000 * 3600);
 
 /// A played or planned day: a scenario and the rows of its trace.
 ///
-/// The rows are those that can be written in every format. Whether they keep the rules of the day is the question of
-/// `vertifleet check`, and is not asked here: a live day may have arrivals that no rule foresees.
+/// The rows are those that can be written in every format. Whether they keep the rules of the day
+/// is the question of `vertifleet check`, and is not asked here: a live day may have arrivals that
+/// no rule foresees.
 #[derive(Debug, Clone, Copy)]
 pub struct Flown<'a> {
     day: &'a Scenario,
@@ -23,9 +25,9 @@ impl<'a> Flown<'a> {
     /// Joins a day and the rows of its trace.
     ///
     /// # Errors
-    /// [`Error::UnknownEntry`] (V724) if a row belongs to a day with more aircraft or vertiports, and
-    /// [`Error::WrongValue`] (V725) if a row goes back in time, goes on after 9999:59:59, or has an amount that is not
-    /// finite.
+    /// [`Error::UnknownEntry`] (V724) if a row belongs to a day with more aircraft or vertiports,
+    /// and [`Error::WrongValue`] (V725) if a row goes back in time, goes on after 9999:59:59, or
+    /// has an amount that is not finite.
     pub fn new(day: &'a Scenario, rows: &'a [TraceRow]) -> Result<Self, Error> {
         for (at, row) in rows.iter().enumerate() {
             Check { day, row, number: at + 1 }.everything()?;

@@ -1,12 +1,13 @@
-//! Great circles: the shortest way between two places on the globe, which a straight flight follows.
+//! Great circles: the shortest way between two places on the globe, which a straight flight
+//! follows.
 //!
-//! The globe is a sphere here. Trigonometry comes from `libm`, because the operating system's own functions may differ
-//! in the last bit, and the same day is to give the same file everywhere.
+//! The globe is a sphere here. Trigonometry comes from `libm`, because the operating system's own
+//! functions may differ in the last bit, and the same day is to give the same file everywhere.
 
 use vertifleet_core::{Degrees, EARTH_RADIUS_MI};
 
-/// Below this distance from 0 or 180 degrees, in radians, two places do not tell which great circle leads from one to
-/// the other.
+/// Below this distance from 0 or 180 degrees, in radians, two places do not tell which great circle
+/// leads from one to the other.
 const TOO_NARROW: f64 = 1e-9;
 
 /// The way from one place to another.
@@ -37,9 +38,9 @@ impl GreatCircle {
         EARTH_RADIUS_MI * self.angle
     }
 
-    /// The place after a share of the way, from 0 to 1, to the nearest 1e-7 degrees, which is about a centimetre; the
-    /// ends are exact. Longitudes go on past 180 degrees rather than leap to -180, so that no line crosses the whole
-    /// map.
+    /// The place after a share of the way, from 0 to 1, to the nearest 1e-7 degrees, which is about
+    /// a centimetre; the ends are exact. Longitudes go on past 180 degrees rather than leap to
+    /// -180, so that no line crosses the whole map.
     pub(crate) fn at(&self, share: f64) -> Degrees {
         if share <= 0.0 {
             return self.from;

@@ -1,9 +1,10 @@
 //! GeoJSON: a line for each flight, with the time at every point, and a point for each vertiport.
 //!
-//! Positions of a line are `[longitude, latitude, altitude, seconds since 1970]`, which is what the trip layer of
-//! kepler.gl animates. The altitude is 0, because a day says nothing of it. Flights come before vertiports, because
-//! kepler.gl looks at the first feature to see whether there are trips. Longitudes go on past 180 degrees where a
-//! flight crosses the date line. Each feature has a line of the file for itself.
+//! Positions of a line are `[longitude, latitude, altitude, seconds since 1970]`, which is what the
+//! trip layer of kepler.gl animates. The altitude is 0, because a day says nothing of it. Flights
+//! come before vertiports, because kepler.gl looks at the first feature to see whether there are
+//! trips. Longitudes go on past 180 degrees where a flight crosses the date line. Each feature has
+//! a line of the file for itself.
 
 use std::collections::HashMap;
 
@@ -73,8 +74,8 @@ fn point(vertiport: &Vertiport, place: Degrees, [departures, arrivals]: [u64; 2]
     )
 }
 
-/// A feature whose properties are given in the order of the alphabet, which is the order in which `serde_json` writes
-/// them whether or not it keeps the order of insertion.
+/// A feature whose properties are given in the order of the alphabet, which is the order in which
+/// `serde_json` writes them whether or not it keeps the order of insertion.
 fn feature<const N: usize>(geometry: Geometry, properties: [(&str, Value); N]) -> Feature {
     debug_assert!(properties.is_sorted_by_key(|&(name, _)| name), "in the order of the alphabet");
     let properties = properties.into_iter().map(|(name, value)| (name.to_owned(), value));

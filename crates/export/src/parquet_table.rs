@@ -17,7 +17,8 @@ use crate::flown::Taken;
 use crate::typed_table::{Cells, TypedColumn, typed_table};
 use crate::{Calendar, Flown};
 
-/// Every decision of the day as a Parquet file. With a calendar, the times stand there as instants too.
+/// Every decision of the day as a Parquet file. With a calendar, the times stand there as instants
+/// too.
 pub fn parquet(flown: &Flown<'_>, calendar: Option<&Calendar>) -> Vec<u8> {
     let taken: Vec<Taken<'_>> = flown.decisions().collect();
     let columns: Vec<TypedColumn> = columns(calendar.is_some())

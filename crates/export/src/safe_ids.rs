@@ -1,16 +1,19 @@
-//! Ids for file names, feeds and web addresses, made from ids that may hold any printable character.
+//! Ids for file names, feeds and web addresses, made from ids that may hold any printable
+//! character.
 
 use std::collections::{HashMap, HashSet};
 
-/// An id of ASCII letters, digits, `-` and `_` for each given id. An id of these characters stays as it is. Others have
-/// `_` in place of each other character, and a number at the end if the result is another's id. Ids that differ only in
-/// capitals are told apart too, because file systems may not tell them apart.
+/// An id of ASCII letters, digits, `-` and `_` for each given id. An id of these characters stays
+/// as it is. Others have `_` in place of each other character, and a number at the end if the
+/// result is another's id. Ids that differ only in capitals are told apart too, because file
+/// systems may not tell them apart.
 pub(crate) fn safe_ids<'a>(ids: impl Iterator<Item = &'a str> + Clone) -> Vec<String> {
     let mut used = HashSet::new();
     // Ids that are safe come first, so that no other id takes theirs.
     let kept: Vec<bool> =
         ids.clone().map(|id| safe(id) == id && used.insert(id.to_ascii_lowercase())).collect();
-    // Numbers that were tried are not tried again, because thousands of ids may have the same safe letters.
+    // Numbers that were tried are not tried again, because thousands of ids may have the same safe
+    // letters.
     let mut tried: HashMap<String, u32> = HashMap::new();
     let mut new_id = |id: &str| {
         let safe = safe(id);

@@ -1,14 +1,16 @@
 //! CSV: one row a flight or hold, for spreadsheets.
 //!
-//! The text is UTF-8, with a comma between values and a point in numbers. Numbers have the fewest digits that read back
-//! as the same number, so that sums over the table are those of the trace. Ids stand as they are in the scenario, in
-//! quotes where they need them; a spreadsheet takes an id that begins with `=` for a formula.
+//! The text is UTF-8, with a comma between values and a point in numbers. Numbers have the fewest
+//! digits that read back as the same number, so that sums over the table are those of the trace.
+//! Ids stand as they are in the scenario, in quotes where they need them; a spreadsheet takes an id
+//! that begins with `=` for a formula.
 
 use crate::columns::{Column, Values, columns};
 use crate::flown::Taken;
 use crate::{Calendar, Flown};
 
-/// Every decision of the day as a CSV file with a header. With a calendar, the times stand there as instants too.
+/// Every decision of the day as a CSV file with a header. With a calendar, the times stand there as
+/// instants too.
 pub fn csv(flown: &Flown<'_>, calendar: Option<&Calendar>) -> Vec<u8> {
     let columns: Vec<&Column> = columns(calendar.is_some()).collect();
     let mut csv = csv::Writer::from_writer(Vec::new());

@@ -12,15 +12,17 @@
 //! | `shapes.txt` | the great circle of every route |
 //! | `feed_info.txt` | the same name, and the date |
 //!
-//! The type 1100 is one of the extended route types of Google Transit. Passengers may board at the departure and leave
-//! at the arrival; on a flight that repositions an aircraft they may do neither (`pickup_type` and `drop_off_type` are
-//! 1). Whether bicycles and wheelchairs are carried is left open. A day has no address on the web, and GTFS wants one:
-//! it is `https://example.org/`, which is reserved for examples.
+//! The type 1100 is one of the extended route types of Google Transit. Passengers may board at the
+//! departure and leave at the arrival; on a flight that repositions an aircraft they may do neither
+//! (`pickup_type` and `drop_off_type` are 1). Whether bicycles and wheelchairs are carried is left
+//! open. A day has no address on the web, and GTFS wants one: it is `https://example.org/`, which
+//! is reserved for examples.
 //!
-//! The tests read feeds of small days back with the `gtfs-structures` crate. They check that there is a trip for each
-//! flight and a stop for each vertiport, that the stops, routes, services, shapes and the agency that are referred to
-//! exist, that each trip has two stops in increasing time, that shapes begin and end at these stops, and that the trips
-//! of a block are the flights of one aircraft with their times. Other validators were not run.
+//! The tests read feeds of small days back with the `gtfs-structures` crate. They check that there
+//! is a trip for each flight and a stop for each vertiport, that the stops, routes, services,
+//! shapes and the agency that are referred to exist, that each trip has two stops in increasing
+//! time, that shapes begin and end at these stops, and that the trips of a block are the flights of
+//! one aircraft with their times. Other validators were not run.
 
 mod archive;
 
@@ -166,8 +168,8 @@ impl Feed<'_> {
         table
     }
 
-    /// Passengers leave an aircraft where it lands. Without these rows, a planner of journeys would let them stay in their seats
-    /// from one trip of a block to the next.
+    /// Passengers leave an aircraft where it lands. Without these rows, a planner of journeys would
+    /// let them stay in their seats from one trip of a block to the next.
     fn transfers(&self) -> Table {
         const MUST_LEAVE: &str = "5";
         let mut table = Table::new([
@@ -244,7 +246,8 @@ impl Feed<'_> {
     }
 }
 
-/// The longitude of the same meridian from -180 to 180 degrees, beyond which GTFS has no longitudes.
+/// The longitude of the same meridian from -180 to 180 degrees, beyond which GTFS has no
+/// longitudes.
 fn within_globe(longitude: f64) -> f64 {
     if longitude > 180.0 {
         longitude - 360.0

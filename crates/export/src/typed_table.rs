@@ -1,6 +1,7 @@
 //! Tables of typed columns as Parquet files, for data frames and databases.
 //!
-//! All rows stand in one row group, compressed with zstd. The same table gives the same bytes on every machine.
+//! All rows stand in one row group, compressed with zstd. The same table gives the same bytes on
+//! every machine.
 
 use std::sync::Arc;
 
@@ -23,7 +24,8 @@ pub struct TypedColumn {
     pub cells: Cells,
 }
 
-/// The cells of a column, which all have one type. Those that may be missing are optional in the file.
+/// The cells of a column, which all have one type. Those that may be missing are optional in the
+/// file.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cells {
     /// Texts (`BYTE_ARRAY`, `STRING`).
@@ -46,7 +48,8 @@ pub enum Cells {
     Instant(Vec<i64>),
 }
 
-/// The table as a Parquet file whose rows are called `rows`. `metadata` are keys and values that stand in the file.
+/// The table as a Parquet file whose rows are called `rows`. `metadata` are keys and values that
+/// stand in the file.
 ///
 /// # Panics
 /// Panics if columns have different numbers of cells, or names that are no names.

@@ -1,8 +1,9 @@
 //! iCalendar: one calendar a vertiport, with the departures and arrivals of the day as events.
 //!
-//! A departure lasts from the decision, when boarding begins, to the end of the take-off time; an arrival lasts from
-//! the beginning of landing to the time at which the aircraft has arrived. Times are UTC. Nothing in a calendar depends
-//! on when it is written: `DTSTAMP` is the start of operations, and `UID` is made of date, aircraft, time and day.
+//! A departure lasts from the decision, when boarding begins, to the end of the take-off time; an
+//! arrival lasts from the beginning of landing to the time at which the aircraft has arrived. Times
+//! are UTC. Nothing in a calendar depends on when it is written: `DTSTAMP` is the start of
+//! operations, and `UID` is made of date, aircraft, time and day.
 
 use icalendar::{Component, Event, EventStatus, Property};
 use vertifleet_core::{Time, Vertiport, VertiportIx};
@@ -16,13 +17,15 @@ use crate::{Calendar, Flown};
 pub struct VertiportCalendar {
     /// The id of the vertiport.
     pub vertiport: String,
-    /// A name for the file, which no other vertiport of the day has on any file system: `vertiport-V1.ics`.
+    /// A name for the file, which no other vertiport of the day has on any file system:
+    /// `vertiport-V1.ics`.
     pub file: String,
     /// The text of the file.
     pub text: String,
 }
 
-/// The calendars of all vertiports, in file order. A vertiport without flights has a calendar without events.
+/// The calendars of all vertiports, in file order. A vertiport without flights has a calendar
+/// without events.
 pub fn icalendar(flown: &Flown<'_>, calendar: &Calendar) -> Vec<VertiportCalendar> {
     let vertiports = &flown.day().vertiports;
     let names = safe_ids(vertiports.iter().map(|vertiport| vertiport.id.as_str()));
@@ -35,7 +38,8 @@ pub fn icalendar(flown: &Flown<'_>, calendar: &Calendar) -> Vec<VertiportCalenda
             let vertiport = &vertiports[at.at()];
             VertiportCalendar {
                 vertiport: vertiport.id.clone(),
-                // The word before the id keeps clear of the names that Windows has for devices, such as CON.
+                // The word before the id keeps clear of the names that Windows has for devices,
+                // such as CON.
                 file: format!("vertiport-{name}.ics"),
                 text: writer.text(vertiport, std::mem::take(&mut events[at.at()])),
             }
@@ -111,7 +115,8 @@ impl Writer<'_> {
         event
     }
 
-    /// When an event begins and ends: within the flight, and no longer than take-off or landing takes.
+    /// When an event begins and ends: within the flight, and no longer than take-off or landing
+    /// takes.
     fn span(&self, flight: &Taken<'_>, end: End) -> (Time, Time) {
         let operations = &self.flown.day().operations;
         let (departure, arrival) = (flight.row.time, flight.row.arrival);
@@ -134,8 +139,8 @@ impl Writer<'_> {
     }
 }
 
-/// The text with its long lines folded anew. The `icalendar` crate folds them too, but its last part of a line may have
-/// 76 bytes, one more than RFC 5545 grants.
+/// The text with its long lines folded anew. The `icalendar` crate folds them too, but its last
+/// part of a line may have 76 bytes, one more than RFC 5545 grants.
 fn folded(text: &str) -> String {
     const MOST: usize = 75;
     let mut folded = String::with_capacity(text.len());

@@ -1,7 +1,8 @@
 //! Writes invented trip records for measurements: `make_trips COUNT FILE [SEED [NETWORK [ROWS]]]`.
 //!
-//! The records are around the vertiports of a network that places them by latitude and longitude, `new-york` if none is
-//! named. FILE ends with `.csv` or `.parquet`, whose row groups have ROWS rows. The vertiports go to a file `vertiports.csv` beside it.
+//! The records are around the vertiports of a network that places them by latitude and longitude,
+//! `new-york` if none is named. FILE ends with `.csv` or `.parquet`, whose row groups have ROWS
+//! rows. The vertiports go to a file `vertiports.csv` beside it.
 
 #[path = "../tests/imports/made.rs"]
 mod made;

@@ -1,7 +1,8 @@
 //! Corridors from the lines of a map, with their lengths.
 //!
-//! Lines on maps rarely begin exactly at a vertiport. The length of a corridor is the length of its line and of the gaps
-//! at both ends, so that it is never below the straight distance of the vertiports.
+//! Lines on maps rarely begin exactly at a vertiport. The length of a corridor is the length of its
+//! line and of the gaps at both ends, so that it is never below the straight distance of the
+//! vertiports.
 
 use std::collections::HashMap;
 use std::path::Path;

@@ -117,8 +117,9 @@ impl Date {
 }
 
 impl Moment {
-    /// Reads `YYYY-MM-DD HH:MM`, with a `T` in place of the space if need be, and with or without seconds and a
-    /// fraction of a second. At its end may stand `Z`, `UTC`, `GMT` or an offset as `-04:00`, `-0400` or `-04`.
+    /// Reads `YYYY-MM-DD HH:MM`, with a `T` in place of the space if need be, and with or without
+    /// seconds and a fraction of a second. At its end may stand `Z`, `UTC`, `GMT` or an offset as
+    /// `-04:00`, `-0400` or `-04`.
     #[inline]
     pub(crate) fn read(text: &[u8]) -> Option<Stamp> {
         let (date, time) = text.split_at_checked(10)?;

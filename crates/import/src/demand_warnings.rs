@@ -29,8 +29,8 @@ impl HourlyDemand {
         (self.passengers() == 0.0).then(|| problem.to_owned())
     }
 
-    /// The longest period, if it lasts longer than the distance of the two periods that begin soonest after each other.
-    /// Its passengers are spread over hours that the table does not have.
+    /// The longest period, if it lasts longer than the distance of the two periods that begin
+    /// soonest after each other. Its passengers are spread over hours that the table does not have.
     fn long_period(&self, operations: &Operations) -> Option<String> {
         let given = self.periods.get(self.first_given..)?;
         let usual = given.windows(2).map(|ends| ends[1].since(ends[0])).min()?;

@@ -1,7 +1,8 @@
 //! Energy prices from a planner's table, and the price of each demand period.
 //!
-//! A price holds from its time until the next one that the table gives, the last one for the rest of the day. A network has
-//! one price for each demand period, so a period in which the price changes has the mean over its time.
+//! A price holds from its time until the next one that the table gives, the last one for the rest
+//! of the day. A network has one price for each demand period, so a period in which the price
+//! changes has the mean over its time.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -72,7 +73,8 @@ impl EnergyPrices {
         self.from.range(..=time).next_back().map(|(_, price)| *price)
     }
 
-    /// The times after the first one of a span at which the price becomes another, with the new price.
+    /// The times after the first one of a span at which the price becomes another, with the new
+    /// price.
     fn changes(&self, (begin, end): (Time, Time)) -> impl Iterator<Item = (Time, f64)> {
         let later = self.from.iter().map(|(time, price)| (*time, *price));
         let mut before = self.at(begin);

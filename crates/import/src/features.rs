@@ -1,4 +1,5 @@
-//! The features of a GeoJSON file as rows: properties are columns, and the geometry comes with them.
+//! The features of a GeoJSON file as rows: properties are columns, and the geometry comes with
+//! them.
 
 use std::borrow::Cow;
 use std::ffi::OsStr;
@@ -40,8 +41,9 @@ pub(crate) struct Ring {
     pub(crate) is_hole: bool,
 }
 
-/// Calls `each` with every feature of a file. A column named `id` is also the feature's own `id`, if no property has
-/// this name. `warnings` has properties that are not read and look like one that is.
+/// Calls `each` with every feature of a file. A column named `id` is also the feature's own `id`,
+/// if no property has this name. `warnings` has properties that are not read and look like one that
+/// is.
 pub(crate) fn shapes(
     path: &Path,
     columns: &[Column],
@@ -96,7 +98,8 @@ pub(crate) fn shapes(
     Ok(())
 }
 
-/// The reference system of a map, if it names one in which positions are not longitude and latitude.
+/// The reference system of a map, if it names one in which positions are not longitude and
+/// latitude.
 fn other_system(collection: &FeatureCollection) -> Option<String> {
     let system = collection.foreign_members.as_ref()?.get("crs")?;
     let name = match system.get("properties").and_then(|properties| properties.get("name")) {
@@ -121,7 +124,8 @@ fn property_names(collection: &FeatureCollection) -> Vec<String> {
     names
 }
 
-/// The value of the first of the column's names that the feature has, or a property that it has twice, once in other case.
+/// The value of the first of the column's names that the feature has, or a property that it has
+/// twice, once in other case.
 fn value<'a>(feature: &'a Feature, column: &Column) -> Result<Option<Cow<'a, str>>, &'a str> {
     for name in column.names {
         let same = |(key, _): &(&String, &JsonValue)| key.eq_ignore_ascii_case(name);

@@ -2,7 +2,8 @@
 
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
-/// Gives the fleet of a network's text `aircraft` aircraft in all, and says so in a comment above it.
+/// Gives the fleet of a network's text `aircraft` aircraft in all, and says so in a comment above
+/// it.
 pub(crate) fn resize(file: &mut DocumentMut, aircraft: u32, base: &str) {
     let mut entries = entries(file);
     let counts: Vec<u32> = entries.iter().map(|entry| count(*entry)).collect();
@@ -58,8 +59,8 @@ fn add_comment(file: &mut DocumentMut, comment: &str) {
     }
 }
 
-/// Whole numbers that add up to `total` in the proportion of `counts`, by largest remainder; the first of equal
-/// remainders gets the aircraft.
+/// Whole numbers that add up to `total` in the proportion of `counts`, by largest remainder; the
+/// first of equal remainders gets the aircraft.
 fn shares(counts: &[u32], total: u32) -> Vec<u32> {
     let all: u64 = counts.iter().copied().map(u64::from).sum::<u64>().max(1);
     let exact = |count: &u32| u64::from(*count) * u64::from(total);

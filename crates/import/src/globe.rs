@@ -38,7 +38,8 @@ pub(crate) struct Area {
     size: f64,
     /// Size times the middle's latitude, and its longitude east of `origin`.
     moment: (f64, f64),
-    /// The longitude of the first place, from which others are measured the shorter way round, also across the antimeridian.
+    /// The longitude of the first place, from which others are measured the shorter way round, also
+    /// across the antimeridian.
     origin: Option<f64>,
 }
 
@@ -50,8 +51,8 @@ fn east_of(origin: f64, longitude: f64) -> f64 {
 impl Area {
     /// Adds the area within a ring of places, or takes away that of a hole.
     ///
-    /// The shoelace formula in degrees: a degree of longitude is shorter than one of latitude, which changes the area
-    /// but not where its middle is.
+    /// The shoelace formula in degrees: a degree of longitude is shorter than one of latitude,
+    /// which changes the area but not where its middle is.
     pub(crate) fn add_ring(&mut self, ring: &[Place], hole: bool) {
         let Some(&origin) = ring.first() else { return };
         let first = *self.origin.get_or_insert(origin.longitude);

@@ -29,12 +29,14 @@ pub(crate) struct HourlyDemand {
     pub(crate) periods: Vec<Time>,
     /// The position of the first period that the planner gave; an empty one may come before it.
     pub(crate) first_given: usize,
-    /// For each pair with passengers, by the positions of its vertiports, the passengers of each period.
+    /// For each pair with passengers, by the positions of its vertiports, the passengers of each
+    /// period.
     pub(crate) pairs: BTreeMap<(usize, usize), Vec<f64>>,
 }
 
 impl HourlyDemand {
-    /// Reads a table. Operations begin at `start`; where the table begins later, an empty period comes first.
+    /// Reads a table. Operations begin at `start`; where the table begins later, an empty period
+    /// comes first.
     pub(crate) fn read(
         path: &Path,
         vertiports: &Vertiports,

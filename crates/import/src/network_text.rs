@@ -1,7 +1,9 @@
-//! The text of the network file: the base's text, with what the planner's files say in place of what the base says.
+//! The text of the network file: the base's text, with what the planner's files say in place of
+//! what the base says.
 //!
-//! The text is edited and not written anew, so that comments stay beside what they explain. Whatever belongs to the
-//! vertiports or the demand of the base is removed or adapted, and the file says so.
+//! The text is edited and not written anew, so that comments stay beside what they explain.
+//! Whatever belongs to the vertiports or the demand of the base is removed or adapted, and the file
+//! says so.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -37,7 +39,8 @@ pub(crate) struct NetworkText<'a> {
     pub(crate) energy_prices: Option<FromFile<'a, EnergyPrices>>,
 }
 
-/// The members of a base that say something else of its demand or its vertiports, with the reason to leave them out.
+/// The members of a base that say something else of its demand or its vertiports, with the reason
+/// to leave them out.
 const LEFT_OUT: [(&[&str], &str); 11] = [
     (&["corridors"], "names its vertiports"),
     (&["closures"], "names its vertiports"),
@@ -73,8 +76,8 @@ impl NetworkText<'_> {
         Ok((network, text))
     }
 
-    /// The members that are taken from the base, with what surges among them do to the demand and whether the fleet has
-    /// another size.
+    /// The members that are taken from the base, with what surges among them do to the demand and
+    /// whether the fleet has another size.
     pub(crate) fn inherited(&self) -> Result<Vec<String>, Error> {
         let file = self.base_file()?;
         let mut members = Vec::new();
@@ -255,8 +258,8 @@ impl NetworkText<'_> {
         put(tariffs, "pairs", list(entries), &comment);
     }
 
-    /// Gives each new demand period the entry that the base has for the time when it starts, if the member is a list by
-    /// period and the periods are others.
+    /// Gives each new demand period the entry that the base has for the time when it starts, if the
+    /// member is a list by period and the periods are others.
     fn adapt_to_periods(&self, tariffs: &mut Table, member: &str, periods: &[Time]) {
         let of_base = self.base.period_starts();
         let Some(entries) = tariffs.get(member).and_then(Item::as_array) else { return };
@@ -305,7 +308,8 @@ impl NetworkText<'_> {
             );
             for (at, mean) in means.iter().enumerate() {
                 let part = if at == 0 { "" } else { ", " };
-                // Whole numbers without a fraction and small ones with an exponent keep the text short.
+                // Whole numbers without a fraction and small ones with an exponent keep the text
+                // short.
                 let _ = if mean.fract() == 0.0 {
                     write!(text, "{part}{mean}")
                 } else {

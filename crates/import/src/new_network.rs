@@ -1,5 +1,5 @@
-//! A network file to start from: a few vertiports, a fleet, a demand in passengers a day, and a comment on every line that
-//! is an assumption.
+//! A network file to start from: a few vertiports, a fleet, a demand in passengers a day, and a
+//! comment on every line that is an assumption.
 
 use vertifleet_core::Network;
 
@@ -40,7 +40,8 @@ impl NewNetwork {
     /// The error of the network file if a value breaks one of its rules.
     pub fn toml(&self) -> Result<String, Error> {
         if self.vertiports.is_empty() {
-            // A TOML file cannot have an empty list of tables, so the text would only lack a member.
+            // A TOML file cannot have an empty list of tables, so the text would only lack a
+            // member.
             return Err(Error::Core(vertifleet_core::Error::EntryCount {
                 origin: "the new network".to_owned(),
                 member: "vertiports".to_owned(),

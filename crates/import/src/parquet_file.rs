@@ -1,7 +1,7 @@
 //! Rows of a Parquet file, with only the columns that are needed, row group by row group.
 //!
-//! Pages are decoded with the library's low-level column readers. A file in which pages, levels or types contradict
-//! each other is an error here, also where the library would panic on it.
+//! Pages are decoded with the library's low-level column readers. A file in which pages, levels or
+//! types contradict each other is an error here, also where the library would panic on it.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -111,8 +111,8 @@ impl ParquetFile {
         Err(Error::NotParsed { origin: self.origin.clone(), kind: "Parquet", problem })
     }
 
-    /// Calls `each` with every row of a row group: one cell for each of the wanted columns. `pause` is called before
-    /// each batch of rows and may end the reading.
+    /// Calls `each` with every row of a row group: one cell for each of the wanted columns. `pause`
+    /// is called before each batch of rows and may end the reading.
     pub(crate) fn rows(
         &self,
         group: usize,
@@ -282,8 +282,8 @@ fn damaged(origin: &str, error: &ParquetError) -> Error {
     }
 }
 
-/// Turns a panic of the library into an error, since some damaged files make it panic. What is under way then is
-/// dropped, so that nothing half-done is used.
+/// Turns a panic of the library into an error, since some damaged files make it panic. What is
+/// under way then is dropped, so that nothing half-done is used.
 fn guarded<T>(origin: &str, read: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
     catch_unwind(AssertUnwindSafe(read)).unwrap_or_else(|_| {
         Err(damaged(origin, &ParquetError::General("the file is damaged".to_owned())))

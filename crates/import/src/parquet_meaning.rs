@@ -1,4 +1,5 @@
-//! What the values of a Parquet column mean: which types can be read, and the cell that a value becomes.
+//! What the values of a Parquet column mean: which types can be read, and the cell that a value
+//! becomes.
 
 use parquet::basic::{ConvertedType, LogicalType, TimeUnit, Type};
 use parquet::schema::types::ColumnDescriptor;
@@ -13,7 +14,8 @@ use crate::error::shortened;
 pub(crate) enum Meaning {
     /// Numbers, texts or truth values, as they are.
     Plain,
-    /// A date and time: a count since 1970, so many units to the second, of clocks somewhere or (`utc`) of UTC.
+    /// A date and time: a count since 1970, so many units to the second, of clocks somewhere or
+    /// (`utc`) of UTC.
     Time { per_second: i64, utc: bool },
     /// A time of day: a count since midnight.
     TimeOfDay { per_second: i64 },
@@ -36,7 +38,8 @@ impl WrongType {
 }
 
 impl Meaning {
-    /// The meaning of a column's values, if they can be used: as dates with times, or as numbers, texts or times of day.
+    /// The meaning of a column's values, if they can be used: as dates with times, or as numbers,
+    /// texts or times of day.
     pub(crate) fn of(column: &ColumnDescriptor, moment: bool) -> Result<Self, WrongType> {
         let logical = column.logical_type_ref();
         let plain = match (column.physical_type(), logical, column.converted_type()) {
@@ -121,7 +124,8 @@ impl Meaning {
 
     pub(crate) fn of_bytes(self, bytes: &[u8]) -> Cell<'_> {
         let Self::Decimal { scale } = self else { return Cell::text(bytes) };
-        // Big-endian, in two's complement. More than 16 bytes are more digits than any number of ours has.
+        // Big-endian, in two's complement. More than 16 bytes are more digits than any number of
+        // ours has.
         let negative = bytes.first().is_some_and(|byte| byte & 0x80 != 0);
         let mut all = [if negative { 0xff } else { 0 }; 16];
         let Some(begin) = all.len().checked_sub(bytes.len()) else { return Cell::Missing };
@@ -136,7 +140,8 @@ fn decimal(unscaled: i128, scale: i32) -> Cell<'static> {
     number.map_or(Cell::Missing, Cell::Number)
 }
 
-/// A number in single precision with the digits with which it is written, and not those of its nearest double.
+/// A number in single precision with the digits with which it is written, and not those of its
+/// nearest double.
 #[inline]
 pub(crate) fn written(number: f32) -> f64 {
     // Whole numbers, and halves and quarters, are the same in both.

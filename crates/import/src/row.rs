@@ -1,5 +1,5 @@
-//! A row of a small table, or a feature of a map, with its values by column: every check of a value names the file, the
-//! place in it, the column and the rule.
+//! A row of a small table, or a feature of a map, with its values by column: every check of a value
+//! names the file, the place in it, the column and the rule.
 
 use std::borrow::Cow;
 
@@ -73,8 +73,8 @@ impl Row<'_> {
 
     /// The place of the row at this position in the same file, in words.
     ///
-    /// Lines are counted anew, because the parser's own count lags behind where it skips empty lines or the second half
-    /// of a CR LF.
+    /// Lines are counted anew, because the parser's own count lags behind where it skips empty
+    /// lines or the second half of a CR LF.
     pub(crate) fn place_of(&self, position: usize) -> String {
         match self.positions {
             Positions::Lines(text) => {

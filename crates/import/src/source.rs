@@ -1,6 +1,8 @@
-//! The bytes of a planner's file, unpacked if the file is compressed with gzip or is a zip archive of one file.
+//! The bytes of a planner's file, unpacked if the file is compressed with gzip or is a zip archive
+//! of one file.
 //!
-//! Files are recognised by their first bytes, so that a workbook with a name in `.csv` is refused as a workbook.
+//! Files are recognised by their first bytes, so that a workbook with a name in `.csv` is refused
+//! as a workbook.
 
 use std::fs::File;
 use std::io::{Cursor, ErrorKind, Read, Seek};
@@ -19,8 +21,8 @@ pub(crate) const LONGEST: u64 = 16 << 20;
 /// Number of first bytes by which a file is recognised.
 const OPENING: usize = 16;
 
-/// Files that planners have and that hold no table or map that can be read: their first bytes, what they are, and what to
-/// do with them.
+/// Files that planners have and that hold no table or map that can be read: their first bytes, what
+/// they are, and what to do with them.
 const OTHERS: [(&[u8], &str); 11] = [
     (b"\xd0\xcf\x11\xe0", "an Excel workbook: save its sheet as CSV"),
     (b"BZh", "compressed with bzip2: unpack it, or compress it with gzip"),
@@ -44,7 +46,8 @@ enum Packing {
 }
 
 impl Packing {
-    /// The packing of a file that begins with these bytes. Refuses files that hold neither a table nor a map.
+    /// The packing of a file that begins with these bytes. Refuses files that hold neither a table
+    /// nor a map.
     fn of(opening: &[u8], origin: &str) -> Result<Self, Error> {
         if opening.starts_with(b"\x1f\x8b") {
             return Ok(Self::Gzip);
@@ -79,7 +82,8 @@ pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, Error> {
     })
 }
 
-/// Calls `read` with the unpacked bytes of a long file. `meter` wraps the file, and sees how far it has been read.
+/// Calls `read` with the unpacked bytes of a long file. `meter` wraps the file, and sees how far it
+/// has been read.
 pub(crate) fn read_through<F, T>(
     path: &Path,
     meter: impl FnOnce(File) -> F,

@@ -1,4 +1,5 @@
-//! JSON in which no object has a member twice. Readers of JSON keep the last one and drop the others silently.
+//! JSON in which no object has a member twice. Readers of JSON keep the last one and drop the
+//! others silently.
 
 use std::collections::HashSet;
 use std::fmt;

@@ -1,5 +1,5 @@
-//! Small tables, CSV or Parquet, read whole and row by row. Trip records, which may be much longer, have readers of
-//! their own.
+//! Small tables, CSV or Parquet, read whole and row by row. Trip records, which may be much longer,
+//! have readers of their own.
 
 use std::path::Path;
 
@@ -13,8 +13,8 @@ use crate::row::{Column, Positions, Row};
 use crate::source::read_whole;
 use crate::{Error, Warning};
 
-/// Calls `each` with every row of a table. Columns may have any order, and others are ignored; `warnings` has those of them
-/// that look like one that is read.
+/// Calls `each` with every row of a table. Columns may have any order, and others are ignored;
+/// `warnings` has those of them that look like one that is read.
 pub(crate) fn rows(
     path: &Path,
     columns: &[Column],
@@ -29,7 +29,8 @@ pub(crate) fn rows(
     csv_rows(text(&bytes, "CSV", &origin)?, &origin, columns, warnings, &mut each)
 }
 
-/// The text of a file that is not Parquet, without the byte order mark at its start. It has something in it, and is UTF-8.
+/// The text of a file that is not Parquet, without the byte order mark at its start. It has
+/// something in it, and is UTF-8.
 pub(crate) fn text<'a>(
     bytes: &'a [u8],
     kind: &'static str,

@@ -1,7 +1,8 @@
 //! The times of trip records, as the clocks of the network show them.
 //!
-//! A time is read as the file writes it, with its offset from UTC if it has one. A time with an offset is an instant, which is
-//! converted to the time zone of the network if the import is given one. A time without is taken as it is.
+//! A time is read as the file writes it, with its offset from UTC if it has one. A time with an
+//! offset is an instant, which is converted to the time zone of the network if the import is given
+//! one. A time without is taken as it is.
 
 use std::str::FromStr;
 
@@ -41,7 +42,8 @@ pub struct NotAFormat {
 impl FromStr for TimeFormat {
     type Err = NotAFormat;
 
-    /// Reads `epoch-s`, `epoch-ms`, or a pattern of `strptime` with which a date and its hour and minute can be read.
+    /// Reads `epoch-s`, `epoch-ms`, or a pattern of `strptime` with which a date and its hour and
+    /// minute can be read.
     fn from_str(text: &str) -> Result<Self, NotAFormat> {
         match text {
             "epoch-s" => return Ok(Self(Format::Epoch { per_second: 1 })),
@@ -107,7 +109,8 @@ impl TripTimes {
         self.format.as_ref().is_some_and(TimeFormat::is_epoch)
     }
 
-    /// The time that a cell holds, as the clocks of the network show it, and whether it is an instant.
+    /// The time that a cell holds, as the clocks of the network show it, and whether it is an
+    /// instant.
     #[inline]
     pub(crate) fn read(&self, cell: Cell<'_>) -> Option<(Moment, bool)> {
         let stamp = match &self.format {

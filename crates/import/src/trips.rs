@@ -1,11 +1,14 @@
-//! Demand from trip records: which trips could have flown, and how many passengers they are by pair and hour.
+//! Demand from trip records: which trips could have flown, and how many passengers they are by pair
+//! and hour.
 //!
-//! A record counts if a vertiport is near its pick-up and another one is near its drop-off. It then stands for
-//! passengers x mode_share x exp(-(access + egress) / decay_mi) passengers of the pair, where access and egress are the
-//! great-circle distances to the two vertiports. The demand of an hour is the mean over the days of the files.
+//! A record counts if a vertiport is near its pick-up and another one is near its drop-off. It then
+//! stands for passengers x mode_share x exp(-(access + egress) / decay_mi) passengers of the pair,
+//! where access and egress are the great-circle distances to the two vertiports. The demand of an
+//! hour is the mean over the days of the files.
 //!
-//! Files are read in blocks (CSV, `trips/blocks.rs`) or row groups (Parquet, `trips/groups.rs`), several at once. Sums
-//! are whole numbers (`trips/tally.rs`), so the result is the same to the last bit in whatever order records are added.
+//! Files are read in blocks (CSV, `trips/blocks.rs`) or row groups (Parquet, `trips/groups.rs`),
+//! several at once. Sums are whole numbers (`trips/tally.rs`), so the result is the same to the
+//! last bit in whatever order records are added.
 
 mod account;
 mod blocks;
@@ -42,25 +45,27 @@ use tally::{Hours, Rules, Tallies};
 
 /// Trip records and how they become demand.
 ///
-/// The demand of an hour is a mean over days. The days are the distinct dates of the chosen [`weekdays`](Self::weekdays)
-/// within [`first_date`](Self::first_date) and [`last_date`](Self::last_date) on which the files have at least one valid
-/// pick-up: one whose time, places and passengers can be read, wherever its places are. Files often hold a few records
-/// with wrong dates, and each such date would count as a day; bounds on the dates leave them out. Where operations go on
-/// past midnight, a pick-up after midnight belongs to the day before.
+/// The demand of an hour is a mean over days. The days are the distinct dates of the chosen
+/// [`weekdays`](Self::weekdays) within [`first_date`](Self::first_date) and
+/// [`last_date`](Self::last_date) on which the files have at least one valid pick-up: one whose
+/// time, places and passengers can be read, wherever its places are. Files often hold a few records
+/// with wrong dates, and each such date would count as a day; bounds on the dates leave them out.
+/// Where operations go on past midnight, a pick-up after midnight belongs to the day before.
 #[derive(Debug, Clone)]
 pub struct Trips<'a> {
     /// The files, CSV or Parquet. A row of a CSV file is one line, also where a value is in quotes.
     pub files: Vec<&'a Path>,
     /// The names of the columns.
     pub columns: TripColumns<'a>,
-    /// Where zones are, if the records name zones: CSV with `zone,latitude,longitude`, or GeoJSON areas or points with
-    /// a property `LocationID` or `zone`.
+    /// Where zones are, if the records name zones: CSV with `zone,latitude,longitude`, or GeoJSON
+    /// areas or points with a property `LocationID` or `zone`.
     pub zones: Option<&'a Path>,
     /// The greatest distance between a place and its vertiport, miles.
     pub radius_mi: f64,
     /// The share of trips near enough that would fly, above 0 up to 1.
     pub mode_share: f64,
-    /// The distance to and from vertiports over which the share falls to 1/e, miles; no fall if absent.
+    /// The distance to and from vertiports over which the share falls to 1/e, miles; no fall if
+    /// absent.
     pub decay_mi: Option<f64>,
     /// The days of the week that count.
     pub weekdays: Weekdays,
@@ -73,8 +78,8 @@ pub struct Trips<'a> {
 }
 
 impl<'a> Trips<'a> {
-    /// Trips of these files with settings to start from: vertiports within 1 mile, 1 percent of trips, no decay, every
-    /// day.
+    /// Trips of these files with settings to start from: vertiports within 1 mile, 1 percent of
+    /// trips, no decay, every day.
     pub fn new(files: Vec<&'a Path>) -> Self {
         Self {
             files,
@@ -94,8 +99,8 @@ impl<'a> Trips<'a> {
         let refuse = |setting, rule, found: &dyn std::fmt::Display| {
             Err(Error::Setting { setting, rule, found: found.to_string() })
         };
-        // A vertiport that is farther away is not near by any measure, and boxes of this size stay clear of the poles'
-        // far side.
+        // A vertiport that is farther away is not near by any measure, and boxes of this size stay
+        // clear of the poles' far side.
         if !(self.radius_mi > 0.0 && self.radius_mi <= 500.0) {
             return refuse("radius_mi", "above 0, to 500", &self.radius_mi);
         }
@@ -122,8 +127,8 @@ impl<'a> Trips<'a> {
     }
 }
 
-/// Reads trip records and returns the demand and the account of all records. Times that are instants are converted to a time
-/// zone, if it is given.
+/// Reads trip records and returns the demand and the account of all records. Times that are
+/// instants are converted to a time zone, if it is given.
 pub(crate) fn demand(
     trips: &Trips<'_>,
     (vertiports, operations): (&Vertiports, &Operations),

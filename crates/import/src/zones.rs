@@ -1,4 +1,5 @@
-//! Zones, by which many trip records say where a trip began and ended: where the middle of each zone is.
+//! Zones, by which many trip records say where a trip began and ended: where the middle of each
+//! zone is.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -11,14 +12,14 @@ use crate::table;
 use crate::vertiports::{LATITUDES, LONGITUDES};
 use crate::{Error, Warning};
 
-/// Files of New York's taxi zones have a `zone` that is a name beside the `LocationID` that trips give, so names of numbers
-/// come first.
+/// Files of New York's taxi zones have a `zone` that is a name beside the `LocationID` that trips
+/// give, so names of numbers come first.
 const ZONE: &[&str] = &["LocationID", "location_id", "zone_id", "zone"];
 const COLUMNS: [Column; 3] = [required(ZONE), required(LATITUDES), required(LONGITUDES)];
 const PROPERTIES: [Column; 1] = [required(ZONE)];
 
-/// Zones with the places of their middles. Ids that are whole numbers are compared as numbers, since tables write 132
-/// also as `132.0`.
+/// Zones with the places of their middles. Ids that are whole numbers are compared as numbers,
+/// since tables write 132 also as `132.0`.
 #[derive(Debug, Default)]
 pub(crate) struct Zones {
     by_number: HashMap<i64, usize>,
@@ -76,8 +77,8 @@ impl Zones {
         }
     }
 
-    /// Adds an area or a point. Several areas with the same id are parts of one zone, as in the files of New York's taxi
-    /// zones.
+    /// Adds an area or a point. Several areas with the same id are parts of one zone, as in the
+    /// files of New York's taxi zones.
     fn add_shape(&mut self, shape: &Shape<'_>, drafts: &mut Vec<Draft>) -> Result<(), Error> {
         let Some(rings) = shape.rings()? else {
             let point = shape.point().map_err(|_| shape.wrong("a Polygon, MultiPolygon or Point"));

@@ -1,5 +1,5 @@
-//! The time to plan a day of `paper` with a given number of search steps, where 0 steps give the best day of the
-//! policies; and the time to play a day with the rolling horizon.
+//! The time to plan a day of `paper` with a given number of search steps, where 0 steps give the
+//! best day of the policies; and the time to play a day with the rolling horizon.
 
 use std::hint::black_box;
 use std::sync::Arc;

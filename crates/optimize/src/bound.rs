@@ -1,11 +1,11 @@
 //! The certified upper bound: dollars that no schedule of a day earns more than.
 //!
 //! Stands and flights get prices (`bound/prices.rs`). Any prices prove a bound in exact arithmetic
-//! (`bound/certificate.rs`), over a day that is laid out once (`bound/time_expanded_day.rs`), with passengers who buy whole
-//! flights (`bound/market.rs`). What the fleet would do
-//! at the prices (`bound/best_itineraries.rs`) shows how to improve them (`bound/descent.rs`), from coarse slices of
-//! time to fine ones (`bound/ladder.rs`). docs/src/concepts/bound.md has the proof. The prices of a bound can be kept
-//! in a file (`bound/kept.rs`).
+//! (`bound/certificate.rs`), over a day that is laid out once (`bound/time_expanded_day.rs`), with
+//! passengers who buy whole flights (`bound/market.rs`). What the fleet would do at the prices
+//! (`bound/best_itineraries.rs`) shows how to improve them (`bound/descent.rs`), from coarse slices
+//! of time to fine ones (`bound/ladder.rs`). docs/src/concepts/bound.md has the proof. The prices
+//! of a bound can be kept in a file (`bound/kept.rs`).
 
 mod best_itineraries;
 mod certificate;
@@ -83,9 +83,9 @@ pub fn upper_bound_unless(
     upper_bound_of_rest(stopped, scenario, &[], step)
 }
 
-/// Does the same for what is left of a day ([`RemainingDay`](vertifleet_sim::live::RemainingDay)), in which each aircraft takes
-/// a stand from the start of operations on, but decides first when it is `ready`. Aircraft past the end of `ready` are
-/// ready from the start.
+/// Does the same for what is left of a day ([`RemainingDay`](vertifleet_sim::live::RemainingDay)),
+/// in which each aircraft takes a stand from the start of operations on, but decides first when it
+/// is `ready`. Aircraft past the end of `ready` are ready from the start.
 ///
 /// # Errors
 /// The errors of [`upper_bound`].
@@ -148,32 +148,34 @@ impl Bound {
         self.upper_bound_usd() <= profit_usd + CENT_USD
     }
 
-    /// The [`gap`] of a profit to this bound, both before the costs of aircraft and sites, which no decision changes.
+    /// The [`gap`] of a profit to this bound, both before the costs of aircraft and sites, which no
+    /// decision changes.
     pub fn gap(&self, profit_usd: f64) -> f64 {
         let operating_usd = money::usd_up(self.micro_usd + i128::from(self.fixed_cost));
         gap(operating_usd, profit_usd + money::usd(self.fixed_cost))
     }
 
-    /// Whether the search came to its end. If not, it ran out of time, and a longer search may find a lower bound.
+    /// Whether the search came to its end. If not, it ran out of time, and a longer search may find
+    /// a lower bound.
     pub fn is_final(&self) -> bool {
         self.is_final
     }
 
-    /// Seconds over which prices stay the same at most. This may be longer than the requested step, where longer slices
-    /// prove more.
+    /// Seconds over which prices stay the same at most. This may be longer than the requested step,
+    /// where longer slices prove more.
     pub fn step_s(&self) -> u32 {
         self.step.seconds()
     }
 
-    /// Price of a stand over the whole day, dollars. With one more stand all day, no schedule earns more than the bound
-    /// plus this amount.
+    /// Price of a stand over the whole day, dollars. With one more stand all day, no schedule earns
+    /// more than the bound plus this amount.
     pub fn stand_shadow_price_usd(&self, vertiport: VertiportIx) -> f64 {
         let prices = self.prices.stand.iter().skip(vertiport.at());
         money::usd(prices.step_by(self.size()).sum())
     }
 
-    /// The same price by demand period, dollars; slices lie within one period each, so the prices of periods add up to
-    /// that of the whole day.
+    /// The same price by demand period, dollars; slices lie within one period each, so the prices
+    /// of periods add up to that of the whole day.
     pub fn stand_shadow_prices_by_period_usd(
         &self,
         vertiport: VertiportIx,
@@ -187,8 +189,9 @@ impl Bound {
         micro_usd.into_iter().map(money::usd).collect()
     }
 
-    /// With one more passenger of a demand period, no schedule earns more than the bound plus this amount in dollars. It is
-    /// by how much one more passenger raises what the passengers of the pair can bring beyond the prices of their flights.
+    /// With one more passenger of a demand period, no schedule earns more than the bound plus this
+    /// amount in dollars. It is by how much one more passenger raises what the passengers of the
+    /// pair can bring beyond the prices of their flights.
     pub fn passenger_shadow_price_usd(
         &self,
         period: usize,
@@ -206,8 +209,9 @@ impl Bound {
     }
 }
 
-/// The amount by which a profit is below a bound, as a share of the bound. Where nothing can be earned, or a loss can
-/// only be kept small, it is the share of the loss that might be avoided, from 0 to 1. A cent is nothing.
+/// The amount by which a profit is below a bound, as a share of the bound. Where nothing can be
+/// earned, or a loss can only be kept small, it is the share of the loss that might be avoided,
+/// from 0 to 1. A cent is nothing.
 pub fn gap(bound_usd: f64, profit_usd: f64) -> f64 {
     if bound_usd > CENT_USD {
         (bound_usd - profit_usd) / bound_usd

@@ -1,8 +1,8 @@
 //! Upper bounds on the profit of a day, and schedules that come close to them.
 //!
-//! [`upper_bound`] proves how much no schedule of a known day can exceed. The planner, [`plan()`], searches for the
-//! schedule that earns the most, and [`plan_with_proof`] shows how far it can be from the best. [`Rolling`] decides
-//! while the day goes on.
+//! [`upper_bound`] proves how much no schedule of a known day can exceed. The planner, [`plan()`],
+//! searches for the schedule that earns the most, and [`plan_with_proof`] shows how far it can be
+//! from the best. [`Rolling`] decides while the day goes on.
 //!
 //! This crate builds on `vertifleet-policy`; the planner starts from days played by its policies.
 //!

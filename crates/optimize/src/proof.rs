@@ -8,8 +8,8 @@ use vertifleet_core::{Scenario, Stop};
 
 use crate::bound::{Bound, CENT_USD, Relaxed, Watch, finest_step, search};
 
-/// The proof of a bound on a thread of its own, with the finest slices for which the day is not too large. The best
-/// bound so far is available at any time, as soon as there is a first one.
+/// The proof of a bound on a thread of its own, with the finest slices for which the day is not too
+/// large. The best bound so far is available at any time, as soon as there is a first one.
 pub struct Proof {
     shared: Arc<Shared>,
 }
@@ -66,13 +66,14 @@ impl Proof {
         self.shared.lock().ended
     }
 
-    /// Records that some schedule earns this many dollars. A bound that has come down to it is as low as any can be, so
-    /// the search ends.
+    /// Records that some schedule earns this many dollars. A bound that has come down to it is as
+    /// low as any can be, so the search ends.
     pub fn knows(&self, profit_usd: f64) {
         self.shared.known_usd.store(profit_usd.to_bits(), Ordering::Relaxed);
     }
 
-    /// Waits until the search has ended, but no longer than `patience`. Returns whether it has ended.
+    /// Waits until the search has ended, but no longer than `patience`. Returns whether it has
+    /// ended.
     ///
     /// # Panics
     /// If the thread of the proof panicked.
@@ -93,16 +94,17 @@ impl Proof {
         self.shared.stopped.request();
     }
 
-    /// The best bound that a search for a plan may report that began at `begun` and had the time `limit`: the best one
-    /// now. If there is none yet, the first one is waited for, but for less than a second past the limit.
+    /// The best bound that a search for a plan may report that began at `begun` and had the time
+    /// `limit`: the best one now. If there is none yet, the first one is waited for, but for less
+    /// than a second past the limit.
     pub fn best_in_time(self, begun: Instant, limit: Duration) -> Option<Bound> {
         let latest = limit + GRACE;
         while self.best().is_none() && begun.elapsed() < latest && !self.wait(POLL_INTERVAL) {}
         self.outcome()
     }
 
-    /// The best bound so far; `None` if there is none yet or the day is too large for any. Asks the search to end if it
-    /// has not.
+    /// The best bound so far; `None` if there is none yet or the day is too large for any. Asks the
+    /// search to end if it has not.
     pub fn outcome(self) -> Option<Bound> {
         self.best().as_deref().cloned()
     }
@@ -155,8 +157,8 @@ const GRACE: Duration = Duration::from_millis(800);
 /// The interval at which one who waits for a proof looks for the next thing to end the waiting.
 pub(crate) const POLL_INTERVAL: Duration = Duration::from_millis(10);
 
-/// Searches for the bound with the finest slices for which the day is not too large. Finds nothing if it is too large
-/// for all.
+/// Searches for the bound with the finest slices for which the day is not too large. Finds nothing
+/// if it is too large for all.
 fn prove(scenario: &Scenario, watch: &Shared) {
     let Some(step) = finest_step(scenario) else { return };
     if let Ok(Some(bound)) = search(Relaxed::known(scenario, &[]), step, watch) {

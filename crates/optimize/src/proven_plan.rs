@@ -1,4 +1,5 @@
-//! A plan with a proof of how good it is. Search and proof run at the same time, and each helps the other to end.
+//! A plan with a proof of how good it is. Search and proof run at the same time, and each helps the
+//! other to end.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -12,8 +13,8 @@ use crate::proof::{POLL_INTERVAL, Proof};
 /// Where policies play their days alone, the proof begins at this share of the time at the latest.
 const LATEST_PROOF: f64 = 0.8;
 
-/// A plan, and the best bound that was proven meanwhile; `None` if there was no time for one, or the day is too large
-/// for any.
+/// A plan, and the best bound that was proven meanwhile; `None` if there was no time for one, or
+/// the day is too large for any.
 #[derive(Debug, Clone)]
 pub struct ProvenPlan {
     /// The best schedule found.
@@ -22,12 +23,12 @@ pub struct ProvenPlan {
     pub bound: Option<Bound>,
 }
 
-/// Plans a day like [`plan()`] while a bound is proven in the background. It ends early if the plan reaches the bound,
-/// or comes as close to it as `gap`, a share of the bound. A limit of time holds for both; after a limit of steps, the
-/// whole proof is waited for.
+/// Plans a day like [`plan()`] while a bound is proven in the background. It ends early if the plan
+/// reaches the bound, or comes as close to it as `gap`, a share of the bound. A limit of time holds
+/// for both; after a limit of steps, the whole proof is waited for.
 ///
-/// `watch` is called many times a second with the progress of the plan and the best bound so far. Soon after `stop` is
-/// requested, the best plan and bound by then are returned.
+/// `watch` is called many times a second with the progress of the plan and the best bound so far.
+/// Soon after `stop` is requested, the best plan and bound by then are returned.
 pub fn plan_with_proof(
     scenario: &Arc<Scenario>,
     settings: &SearchSettings,

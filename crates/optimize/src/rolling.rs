@@ -1,11 +1,12 @@
-//! `rolling`: at every decision, rolls out the best choices at the day's prices, and takes the one with the highest
-//! value.
+//! `rolling`: at every decision, rolls out the best choices at the day's prices, and takes the one
+//! with the highest value.
 //!
-//! This is a rolling horizon in two parts. For the time to the end of the day, the problem of the whole fleet is solved
-//! anew every quarter of an hour from its current state, with stands and passengers priced ([`DayPrices`]). For the
-//! next two hours, each choice of a shortlist is played out in the simulator several times, with every aircraft
-//! following the base rule; the fleet's profit until then and its worth at that time decide. The policy does not look
-//! at a clock, so the same day has the same outcome on every machine.
+//! This is a rolling horizon in two parts. For the time to the end of the day, the problem of the
+//! whole fleet is solved anew every quarter of an hour from its current state, with stands and
+//! passengers priced ([`DayPrices`]). For the next two hours, each choice of a shortlist is played
+//! out in the simulator several times, with every aircraft following the base rule; the fleet's
+//! profit until then and its worth at that time decide. The policy does not look at a clock, so the
+//! same day has the same outcome on every machine.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_policy::{
@@ -13,14 +14,14 @@ use vertifleet_policy::{
 };
 use vertifleet_sim::{Decision, View};
 
-/// The settings of roll-outs, tuned on validation days. Over a horizon to the end of the day, chance would decide, and
-/// days earn less than without roll-outs.
+/// The settings of roll-outs, tuned on validation days. Over a horizon to the end of the day,
+/// chance would decide, and days earn less than without roll-outs.
 const ROLLOUTS: RolloutSettings =
     RolloutSettings { horizon_s: 7_200, rollouts: 16, noise: 0.05, price_weight: 1.0 };
 
-/// The settings of another day to begin a plan with. It takes about four times as long. On 12 calm validation days of
-/// `los-angeles` half as many roll-outs earned 0.8 % more than the above, and on 20 of `san-francisco` 0.2 %; but for a plan it
-/// counts that the day is another one.
+/// The settings of another day to begin a plan with. It takes about four times as long. On 12 calm
+/// validation days of `los-angeles` half as many roll-outs earned 0.8 % more than the above, and on
+/// 20 of `san-francisco` 0.2 %; but for a plan it counts that the day is another one.
 const MORE_ROLLOUTS: RolloutSettings =
     RolloutSettings { horizon_s: 10_800, rollouts: 64, ..ROLLOUTS };
 
@@ -57,8 +58,8 @@ impl Policy for Rolling {
         Ok(self.evaluator.best_choice(prices, *view, decision, listed))
     }
 
-    /// Mean value of the roll-outs of each choice of the shortlist, dollars. The choice is the one that is worth most at
-    /// the prices, unless another is better beyond doubt.
+    /// Mean value of the roll-outs of each choice of the shortlist, dollars. The choice is the one
+    /// that is worth most at the prices, unless another is better beyond doubt.
     fn values(
         &mut self,
         decision: &Decision,

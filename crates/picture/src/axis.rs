@@ -11,9 +11,11 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// A scale on which all `values` fit with a margin, with about `ticks` round values. `low` lies at pixel `from`.
+    /// A scale on which all `values` fit with a margin, with about `ticks` round values. `low` lies
+    /// at pixel `from`.
     ///
-    /// If all values are equal, there is room on either side of them; without values the scale goes from 0 to 1.
+    /// If all values are equal, there is room on either side of them; without values the scale goes
+    /// from 0 to 1.
     pub fn around(values: impl Iterator<Item = f64>, from: f64, to: f64, ticks: usize) -> Self {
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
             (low.min(value), high.max(value))
@@ -25,7 +27,8 @@ impl Scale {
         Self { low, high, from, to, step: round_step((high - low) / ticks as f64) }
     }
 
-    /// A scale from 0 at pixel `from` to a little above the largest of `values`, with about `ticks` round values.
+    /// A scale from 0 at pixel `from` to a little above the largest of `values`, with about `ticks`
+    /// round values.
     pub fn from_zero(values: impl Iterator<Item = f64>, from: f64, to: f64, ticks: usize) -> Self {
         let high = 1.04 * values.fold(0.0, f64::max).max(1e-9);
         Self { low: 0.0, high, from, to, step: round_step(high / ticks as f64) }
@@ -49,7 +52,8 @@ impl Scale {
         (0..=count).map(|tick| (first + f64::from(tick)) * self.step).collect()
     }
 
-    /// The number of decimals that tells the ticks apart when they are written in a unit of this size.
+    /// The number of decimals that tells the ticks apart when they are written in a unit of this
+    /// size.
     pub fn decimals(&self, unit: f64) -> usize {
         let step = self.step / unit;
         (0..9_i32)

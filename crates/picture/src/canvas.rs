@@ -107,7 +107,8 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// An empty picture with a title in its upper left corner and a subtitle in smaller letters below it.
+    /// An empty picture with a title in its upper left corner and a subtitle in smaller letters
+    /// below it.
     pub fn new(width: f64, height: f64, title: &str, subtitle: &str) -> Self {
         let mut canvas = Self::bare(width, height, title);
         let heading = Lettering { size: 17.0, ..Lettering::LABEL.bold() };
@@ -201,7 +202,8 @@ impl Canvas {
         self.text_with(at, lettering, content, "");
     }
 
-    /// Like [`text`](Self::text), with a rim in the colour of the ground, so that it can be read on top of lines.
+    /// Like [`text`](Self::text), with a rim in the colour of the ground, so that it can be read on
+    /// top of lines.
     pub fn text_on_lines(&mut self, at: Point, lettering: Lettering, content: &str) {
         let (class, colour) = (Paint::Ground.class(), Paint::Ground.colour());
         let rim = format!(
@@ -290,8 +292,8 @@ pub fn pixels(length: f64) -> String {
     }
 }
 
-/// The text with the characters escaped that have a meaning in XML; characters that XML does not allow become a
-/// replacement mark.
+/// The text with the characters escaped that have a meaning in XML; characters that XML does not
+/// allow become a replacement mark.
 fn escaped(content: &str) -> String {
     let mut text = String::with_capacity(content.len());
     for letter in content.chars() {

@@ -1,5 +1,5 @@
-//! When an aircraft that has landed is charged. On a day with outages this may be long before it is ready, because an
-//! aircraft that lands within an outage stays on the ground until it is over.
+//! When an aircraft that has landed is charged. On a day with outages this may be long before it is
+//! ready, because an aircraft that lands within an outage stays on the ground until it is over.
 
 use vertifleet_core::{Scenario, Time};
 use vertifleet_sim::{Legs, TraceRow};
@@ -19,7 +19,8 @@ impl<'a> Charged<'a> {
         Self { day, legs: has_outages.then(|| Legs::of(day)) }
     }
 
-    /// The time at which the aircraft of a flight is charged. From then until it is ready, it is out of service.
+    /// The time at which the aircraft of a flight is charged. From then until it is ready, it is
+    /// out of service.
     pub fn at(&self, row: &TraceRow) -> Time {
         let Some(legs) = &self.legs else { return row.ready };
         let mut outages = self.day.disturbances.outages.iter();

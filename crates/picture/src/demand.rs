@@ -43,7 +43,8 @@ pub(crate) fn wanted(canvas: &mut Canvas, area: Area, day: &Scenario, demand: &[
     bars(canvas, area, day, &demand.iter().map(all).map(|all| (all, all)).collect::<Vec<_>>());
 }
 
-/// A bar for each demand period, of the passengers who want to fly and of those of them who are served.
+/// A bar for each demand period, of the passengers who want to fly and of those of them who are
+/// served.
 fn bars(canvas: &mut Canvas, area: Area, day: &Scenario, passengers: &[(f64, f64)]) {
     let scale = counts(canvas, area, passengers.iter().map(|&(wanted, _)| wanted));
     let width = area.width / passengers.len() as f64;

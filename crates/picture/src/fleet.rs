@@ -1,4 +1,5 @@
-//! What each aircraft did on a played day: flights by load, charging, outages, and the rest of the time on a stand.
+//! What each aircraft did on a played day: flights by load, charging, outages, and the rest of the
+//! time on a stand.
 
 use vertifleet_core::{Scenario, Time};
 use vertifleet_sim::TraceRow;

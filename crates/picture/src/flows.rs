@@ -26,7 +26,8 @@ pub(crate) fn carried(canvas: &mut Canvas, area: Area, day: &Scenario, rows: &[T
     draw_flows(canvas, area, day, &carried);
 }
 
-/// Lines as wide as the numbers of an upper triangle, the vertiports, and what the widest line stands for.
+/// Lines as wide as the numbers of an upper triangle, the vertiports, and what the widest line
+/// stands for.
 pub(crate) fn draw_flows(canvas: &mut Canvas, area: Area, day: &Scenario, numbers: &[f64]) {
     let (map, size) = (Map::of(day, area), day.vertiports.len());
     let mut flows: Vec<(f64, usize, usize)> = (0..size)

@@ -14,7 +14,8 @@ pub const FRAME: (u32, u32) = (640, 480);
 const HEADER: f64 = 40.0;
 const FOOTER: f64 = 24.0;
 
-/// A map of the fleet as SVG, [`FRAME`] in size. `deciding` is the vertiport of the aircraft that decides, if one does.
+/// A map of the fleet as SVG, [`FRAME`] in size. `deciding` is the vertiport of the aircraft that
+/// decides, if one does.
 pub fn frame(day: &Scenario, moment: &Moment, deciding: Option<VertiportIx>) -> String {
     let (width, height) = (f64::from(FRAME.0), f64::from(FRAME.1));
     let mut canvas = Canvas::bare(width, height, &day.name);
@@ -74,8 +75,8 @@ fn flights(canvas: &mut Canvas, map: &Map, moment: &Moment, radius: f64) {
     }
 }
 
-/// A vertiport with the share of its stands that are taken, the number of aircraft on them and on their way to it, and
-/// its waiting passengers.
+/// A vertiport with the share of its stands that are taken, the number of aircraft on them and on
+/// their way to it, and its waiting passengers.
 fn vertiport(
     canvas: &mut Canvas,
     map: &Map,

@@ -1,9 +1,12 @@
-//! Pictures of days, schedules and fleets, and the kit that every figure of the project is drawn with.
+//! Pictures of days, schedules and fleets, and the kit that every figure of the project is drawn
+//! with.
 //!
-//! This crate builds on `vertifleet-sim`. [`Moment`] says where the fleet is at one time of a trace; [`frame`] paints it
-//! as a frame of a video, and [`text`] for a terminal. [`day`] is the picture of a day, [`network`] that of a network, and [`PlayedPicture`] has those of a
-//! day that was played, most of which [`schedule`] puts on one sheet. The kit writes SVG ([`canvas`], [`axis`],
-//! [`palette`]), and [`png`] and [`rgb`] turn SVG into pixels with the embedded font, the same on every machine.
+//! This crate builds on `vertifleet-sim`. [`Moment`] says where the fleet is at one time of a
+//! trace; [`frame`] paints it as a frame of a video, and [`text`] for a terminal. [`day`] is the
+//! picture of a day, [`network`] that of a network, and [`PlayedPicture`] has those of a day that
+//! was played, most of which [`schedule`] puts on one sheet. The kit writes SVG ([`canvas`],
+//! [`axis`], [`palette`]), and [`png`] and [`rgb`] turn SVG into pixels with the embedded font, the
+//! same on every machine.
 
 pub mod axis;
 pub mod canvas;

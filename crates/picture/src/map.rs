@@ -29,7 +29,8 @@ impl Area {
     }
 }
 
-/// The aircraft that a vertiport has room for: its stands, and its chargers where they are counted apart.
+/// The aircraft that a vertiport has room for: its stands, and its chargers where they are counted
+/// apart.
 pub(crate) fn room(vertiport: &Vertiport) -> u32 {
     u32::from(vertiport.stands) + u32::from(vertiport.chargers.unwrap_or(0))
 }

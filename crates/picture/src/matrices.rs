@@ -1,7 +1,8 @@
-//! Who wants to fly where and when: the matrix of demand as small heat maps, one for each demand period.
+//! Who wants to fly where and when: the matrix of demand as small heat maps, one for each demand
+//! period.
 //!
-//! Demand is far from even, so the classes of the colours grow with the square of their number: the few great numbers do
-//! not make all others look alike. The legend has their limits.
+//! Demand is far from even, so the classes of the colours grow with the square of their number: the
+//! few great numbers do not make all others look alike. The legend has their limits.
 
 use vertifleet_core::{Matrix, Scenario, Time, VertiportIx};
 
@@ -124,7 +125,8 @@ impl<'a> Matrices<'a> {
             let row: Vec<Option<usize>> =
                 panel.passengers.row(from).iter().map(|&number| self.class(number)).collect();
             let mut start = 0;
-            // Cells of one class that lie side by side are one block, so that pictures of large networks stay small.
+            // Cells of one class that lie side by side are one block, so that pictures of large
+            // networks stay small.
             for run in row.chunk_by(|one, next| one == next) {
                 if let Some(class) = run[0] {
                     let x = area.left + cell * start as f64;
@@ -140,8 +142,8 @@ impl<'a> Matrices<'a> {
         canvas.rectangle((area.left, area.top), (area.width, area.height), frame);
     }
 
-    /// The ids of the vertiports below the columns and, in the first column of heat maps, beside the rows. Where they are
-    /// wide for their columns, every second one stands lower.
+    /// The ids of the vertiports below the columns and, in the first column of heat maps, beside
+    /// the rows. Where they are wide for their columns, every second one stands lower.
     fn names(&self, canvas: &mut Canvas, area: Area, is_first: bool) {
         let ids = || self.day.vertiports.iter().map(|one| one.id.as_str());
         let cell = area.width / self.day.vertiports.len() as f64;

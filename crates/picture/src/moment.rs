@@ -48,7 +48,8 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// The fleet at this time. `rows` is the trace of the day so far, or of all of it: rows after the time do not count.
+    /// The fleet at this time. `rows` is the trace of the day so far, or of all of it: rows after
+    /// the time do not count.
     pub fn of(day: &Scenario, rows: &[TraceRow], time: Time) -> Self {
         let rows = &rows[..rows.partition_point(|row| row.time <= time)];
         let vertiports = day.vertiports.len();

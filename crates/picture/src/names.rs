@@ -13,8 +13,8 @@ const CAPITALS: f64 = 0.75;
 /// A rectangle: left, top, right, bottom.
 type Extent = [f64; 4];
 
-/// Draws the names of all vertiports, whose discs have this radius, if there is room for names at all. A name stands above
-/// its disc if nothing is there, otherwise below, right or left of it.
+/// Draws the names of all vertiports, whose discs have this radius, if there is room for names at
+/// all. A name stands above its disc if nothing is there, otherwise below, right or left of it.
 pub(crate) fn draw(canvas: &mut Canvas, map: &Map, day: &Scenario, radius: f64) {
     if !map.is_named() {
         return;

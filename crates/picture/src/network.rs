@@ -1,4 +1,5 @@
-//! A network as a picture: its vertiports, when people want to fly, and the matrix of demand in each demand period.
+//! A network as a picture: its vertiports, when people want to fly, and the matrix of demand in
+//! each demand period.
 
 use vertifleet_core::{Matrix, Scenario};
 
@@ -11,9 +12,9 @@ use crate::panel::heading;
 const LEFT: f64 = 64.0;
 const RIGHT: f64 = 24.0;
 
-/// The picture of a network as SVG. `day` is its [mean day](vertifleet_core::Network::mean_day), and `means` are the mean
-/// passengers by period. All of it is drawn from `means`: the day has them rounded for each pair, which leaves no passengers where
-/// demand is thin.
+/// The picture of a network as SVG. `day` is its [mean day](vertifleet_core::Network::mean_day),
+/// and `means` are the mean passengers by period. All of it is drawn from `means`: the day has them
+/// rounded for each pair, which leaves no passengers where demand is thin.
 pub fn network(day: &Scenario, means: &[Matrix<f64>]) -> String {
     let matrices = Matrices::of(day, means);
     let width = WIDTH - LEFT - RIGHT;

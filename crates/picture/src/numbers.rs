@@ -1,4 +1,5 @@
-//! Formats numbers for people: grouped thousands, signs, rounded p-values and times. Table, figures and page share it.
+//! Formats numbers for people: grouped thousands, signs, rounded p-values and times. Table, figures
+//! and page share it.
 
 /// Rounds to `decimals` and groups the thousands: `-28,747`.
 pub fn grouped(value: f64, decimals: usize) -> String {
@@ -18,7 +19,8 @@ pub fn grouped(value: f64, decimals: usize) -> String {
     text + fraction
 }
 
-/// A mean of whole numbers: whole where it is large or has no fraction, and else with its first digits.
+/// A mean of whole numbers: whole where it is large or has no fraction, and else with its first
+/// digits.
 pub fn mean(value: f64) -> String {
     let decimals = match value.abs() {
         whole if whole.fract() == 0.0 => 0,

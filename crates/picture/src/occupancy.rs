@@ -1,7 +1,7 @@
 //! How many aircraft a vertiport holds or has promised a place to, over a played day (Eq. 16).
 //!
-//! A stand is taken at the decision to fly *towards* a vertiport and freed at the decision to fly *from* it, so the number
-//! changes at decisions only, and never passes the room.
+//! A stand is taken at the decision to fly *towards* a vertiport and freed at the decision to fly
+//! *from* it, so the number changes at decisions only, and never passes the room.
 
 use vertifleet_core::{Scenario, Time, VertiportIx};
 use vertifleet_sim::TraceRow;
@@ -15,7 +15,8 @@ const HOUR_S: f64 = 3_600.0;
 pub struct Occupancy {
     /// Aircraft that it has room for: its stands, and its chargers where they are counted apart.
     pub room: u32,
-    /// The times at which the number changes, each with the number from then on. The first is the start of operations.
+    /// The times at which the number changes, each with the number from then on. The first is the
+    /// start of operations.
     pub steps: Vec<(Time, u32)>,
     end: Time,
 }

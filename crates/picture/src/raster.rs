@@ -1,4 +1,5 @@
-//! Converts an SVG figure to PNG with the embedded font, so that the picture is the same on every machine.
+//! Converts an SVG figure to PNG with the embedded font, so that the picture is the same on every
+//! machine.
 
 use std::sync::{Arc, LazyLock};
 
@@ -22,16 +23,18 @@ static FONT_DATABASE: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
 /// The figure as PNG at twice its size.
 ///
 /// # Panics
-/// Panics if the SVG is not well-formed or has no size, which does not happen for the figures of this crate.
+/// Panics if the SVG is not well-formed or has no size, which does not happen for the figures of
+/// this crate.
 pub fn png(svg: &str) -> Vec<u8> {
     rendered(svg, PIXEL_RATIO).encode_png().expect("a picture in memory can be encoded")
 }
 
-/// The figure in its own size as pixels, row by row from the top, each with red, green and blue from 0 to 255. The
-/// ground is opaque.
+/// The figure in its own size as pixels, row by row from the top, each with red, green and blue
+/// from 0 to 255. The ground is opaque.
 ///
 /// # Panics
-/// Panics if the SVG is not well-formed or has no size, which does not happen for the pictures of this crate.
+/// Panics if the SVG is not well-formed or has no size, which does not happen for the pictures of
+/// this crate.
 pub fn rgb(svg: &str) -> Vec<u8> {
     let pixels = rendered(svg, 1.0);
     pixels.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()

@@ -1,5 +1,6 @@
-//! A played day as pictures: where passengers flew, what every aircraft did, how full the vertiports were, how much demand
-//! was served and spilled, and where the money went. Each can be had by itself, or the first four on one sheet.
+//! A played day as pictures: where passengers flew, what every aircraft did, how full the
+//! vertiports were, how much demand was served and spilled, and where the money went. Each can be
+//! had by itself, or the first four on one sheet.
 
 use vertifleet_core::{Scenario, Time};
 use vertifleet_sim::TraceRow;

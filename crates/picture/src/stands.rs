@@ -1,6 +1,8 @@
-//! How full the vertiports were on a played day: for each of them the stands that are taken, against its capacity.
+//! How full the vertiports were on a played day: for each of them the stands that are taken,
+//! against its capacity.
 //!
-//! Every capacity is drawn at the same height, so that full is full wherever one looks; its number stands beside it.
+//! Every capacity is drawn at the same height, so that full is full wherever one looks; its number
+//! stands beside it.
 
 use vertifleet_core::{Scenario, Time, VertiportIx};
 use vertifleet_sim::TraceRow;

@@ -8,8 +8,9 @@ use crate::map::room;
 use crate::moment::Moment;
 use crate::numbers::grouped;
 
-/// A table of the vertiports: aircraft that stand there and are on their way to it, its stands, and its waiting
-/// passengers. The vertiport of the aircraft that decides is marked. There is no line end after the last line.
+/// A table of the vertiports: aircraft that stand there and are on their way to it, its stands, and
+/// its waiting passengers. The vertiport of the aircraft that decides is marked. There is no line
+/// end after the last line.
 pub fn text(day: &Scenario, moment: &Moment, deciding: Option<VertiportIx>) -> String {
     let mut text = format!(
         "{} {}  profit {} $  {} flights  {} passengers\n",

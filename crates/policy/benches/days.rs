@@ -1,4 +1,5 @@
-//! Decisions per second of the simulator, over whole days of the `paper` network with uniformly random choices.
+//! Decisions per second of the simulator, over whole days of the `paper` network with uniformly
+//! random choices.
 
 use std::hint::black_box;
 use std::sync::Arc;

@@ -1,5 +1,5 @@
-//! The time to find the prices of a `paper` day, to find them anew and to decide by them, and to find them anew on a day
-//! of 100 vertiports and 2,000 aircraft and to play it.
+//! The time to find the prices of a `paper` day, to find them anew and to decide by them, and to
+//! find them anew on a day of 100 vertiports and 2,000 aircraft and to play it.
 
 use std::fmt::Write;
 use std::hint::black_box;
@@ -65,8 +65,9 @@ fn bench_day(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, day: &Arc<Sce
     });
 }
 
-/// 100 vertiports spread evenly over 45 x 45 miles, with 26 stands each, and 2,000 aircraft. Everything else is as in
-/// `paper`, except for a demand that a fleet of this size can just about carry.
+/// 100 vertiports spread evenly over 45 x 45 miles, with 26 stands each, and 2,000 aircraft.
+/// Everything else is as in `paper`, except for a demand that a fleet of this size can just about
+/// carry.
 fn large_network() -> Network {
     let paper = include_str!("../../../networks/paper.toml");
     let (head, _) = paper.split_once("[[vertiports]]").expect("paper lists its vertiports");

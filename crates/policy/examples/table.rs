@@ -1,11 +1,12 @@
-//! Measures how far the features of §IV.A suffice without a network of layers: a table of 72 numbers is learned by an
-//! evolution strategy.
+//! Measures how far the features of §IV.A suffice without a network of layers: a table of 72
+//! numbers is learned by an evolution strategy.
 //!
-//! An aircraft at i scores each feasible j by the flight's profit per hour, plus a number of the pair, plus a number of
-//! j times U_j. The networks of layers see all of these inputs and more, except for the demand of a single pair, which
-//! hardly ever binds on `paper`. The reward that the table reaches on validation days is therefore within their reach,
-//! and where they earn less, the learning is at fault and not the features. (Salimans et al. 2017, "Evolution
-//! strategies as a scalable alternative to reinforcement learning".)
+//! An aircraft at i scores each feasible j by the flight's profit per hour, plus a number of the
+//! pair, plus a number of j times U_j. The networks of layers see all of these inputs and more,
+//! except for the demand of a single pair, which hardly ever binds on `paper`. The reward that the
+//! table reaches on validation days is therefore within their reach, and where they earn less, the
+//! learning is at fault and not the features. (Salimans et al. 2017, "Evolution strategies as a
+//! scalable alternative to reinforcement learning".)
 //!
 //! Run: `cargo run --release -p vertifleet-policy --example table`
 

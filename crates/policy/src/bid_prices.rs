@@ -1,13 +1,14 @@
-//! `prices`: takes the choice that is worth most at the bid prices of the day, which are found anew every quarter of an
-//! hour.
+//! `prices`: takes the choice that is worth most at the bid prices of the day, which are found anew
+//! every quarter of an hour.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, View};
 
 use crate::{DayPrices, Policy, PolicyError, PriceMemory};
 
-/// Decides by bid prices ([`DayPrices`](crate::DayPrices)): a choice is worth its flight's profit plus the worth of
-/// being ready where and when it ends, less the prices of its passengers and of its stand.
+/// Decides by bid prices ([`DayPrices`](crate::DayPrices)): a choice is worth its flight's profit
+/// plus the worth of being ready where and when it ends, less the prices of its passengers and of
+/// its stand.
 #[derive(Debug, Clone, Default)]
 pub struct BidPricePolicy {
     prices: PriceMemory,
@@ -19,8 +20,8 @@ impl Policy for BidPricePolicy {
         Ok(prices.best_choice(*view, decision))
     }
 
-    /// Worth at the day's bid prices, dollars. The choice is another one where a simpler rule is expected to earn more
-    /// over the rest of the day.
+    /// Worth at the day's bid prices, dollars. The choice is another one where a simpler rule is
+    /// expected to earn more over the rest of the day.
     fn values(
         &mut self,
         decision: &Decision,

@@ -1,5 +1,5 @@
-//! Random draws without state: each is a function of seed, day and decision, so days may be played in any order and
-//! batch.
+//! Random draws without state: each is a function of seed, day and decision, so days may be played
+//! in any order and batch.
 
 use rand::{Rng, SeedableRng};
 use rand_xoshiro::SplitMix64;

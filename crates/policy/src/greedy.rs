@@ -5,8 +5,8 @@ use vertifleet_sim::{Decision, View};
 
 use crate::{Policy, PolicyError};
 
-/// Looks one flight ahead. Holds if no flight earns anything. Of equally good flights, it takes the one to the
-/// vertiport listed first.
+/// Looks one flight ahead. Holds if no flight earns anything. Of equally good flights, it takes the
+/// one to the vertiport listed first.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Greedy;
 

@@ -1,7 +1,8 @@
 //! The [`Policy`] trait, the policies that need no learning, and how a day is played with one.
 //!
-//! This crate builds on `vertifleet-sim`. A policy sees a day only through a `View`. [`Greedy`] is a rule,
-//! [`BidPricePolicy`] decides by [`DayPrices`], and a [`RolloutEvaluator`] evaluates choices by roll-outs.
+//! This crate builds on `vertifleet-sim`. A policy sees a day only through a `View`. [`Greedy`] is
+//! a rule, [`BidPricePolicy`] decides by [`DayPrices`], and a [`RolloutEvaluator`] evaluates
+//! choices by roll-outs.
 //!
 //! ```
 //! use std::sync::Arc;

@@ -15,10 +15,12 @@ pub enum PlayError {
     Refused(#[from] Refusal),
 }
 
-/// Plays the rest of the day. `record` is called with every decision that was carried out, in order.
+/// Plays the rest of the day. `record` is called with every decision that was carried out, in
+/// order.
 ///
 /// # Errors
-/// [`PlayError`] if the policy has no answer or an infeasible one. The day then stands at that decision.
+/// [`PlayError`] if the policy has no answer or an infeasible one. The day then stands at that
+/// decision.
 pub fn play<P: Policy + ?Sized>(
     simulation: &mut Simulation,
     policy: &mut P,

@@ -7,21 +7,24 @@ use crate::{DayPrices, PriceMemory};
 
 /// Decides where an aircraft flies next.
 ///
-/// A choice depends on the decision, the view and the policy's own settings, and on nothing that the policy did on
-/// another day. Days that are played from their first decision to their last therefore have the same outcome in any
-/// order and on any number of threads. Most policies remember nothing and can also play many days by turns with the
-/// same outcome. A policy that looks ahead may remember the day that it is playing ([`PriceMemory`](crate::PriceMemory)),
-/// to continue from its earlier results; it must be able to start in the middle of any day without that memory.
+/// A choice depends on the decision, the view and the policy's own settings, and on nothing that
+/// the policy did on another day. Days that are played from their first decision to their last
+/// therefore have the same outcome in any order and on any number of threads. Most policies
+/// remember nothing and can also play many days by turns with the same outcome. A policy that looks
+/// ahead may remember the day that it is playing ([`PriceMemory`](crate::PriceMemory)), to continue
+/// from its earlier results; it must be able to start in the middle of any day without that memory.
 pub trait Policy: Send {
     /// Chooses a vertiport of [`View::feasible`], where the aircraft's own vertiport means hold.
     ///
     /// # Errors
-    /// [`PolicyError`] if the policy has no answer, as for example when it replays another day's trace.
+    /// [`PolicyError`] if the policy has no answer, as for example when it replays another day's
+    /// trace.
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError>;
 
-    /// Writes what the policy compares choices by, one number for each vertiport, the higher the better; NaN for a
-    /// choice that it does not consider. They are dollars, dollars an hour or logits, as each policy says. A policy
-    /// without such numbers, as by default, writes NaN for all.
+    /// Writes what the policy compares choices by, one number for each vertiport, the higher the
+    /// better; NaN for a choice that it does not consider. They are dollars, dollars an hour or
+    /// logits, as each policy says. A policy without such numbers, as by default, writes NaN for
+    /// all.
     ///
     /// # Errors
     /// The errors of [`choose`](Self::choose).
@@ -38,8 +41,8 @@ pub trait Policy: Send {
         Ok(())
     }
 
-    /// Chooses, and writes what the choices were compared by, as [`values`](Self::values) does. Policies for which both
-    /// are one computation carry it out once.
+    /// Chooses, and writes what the choices were compared by, as [`values`](Self::values) does.
+    /// Policies for which both are one computation carry it out once.
     ///
     /// # Errors
     /// The errors of [`choose`](Self::choose).
@@ -56,22 +59,23 @@ pub trait Policy: Send {
         self.choose(decision, view)
     }
 
-    /// The bid prices that it decides by, refreshed for this decision; `None` for a policy that has none, as by default.
+    /// The bid prices that it decides by, refreshed for this decision; `None` for a policy that has
+    /// none, as by default.
     fn prices(&mut self, _decision: &Decision, _view: &View<'_>) -> Option<&DayPrices> {
         None
     }
 
-    /// Its memory of bid prices, so that a service can recompute them in the background; `None` for a policy that has none, as by
-    /// default.
+    /// Its memory of bid prices, so that a service can recompute them in the background; `None` for
+    /// a policy that has none, as by default.
     fn price_memory(&mut self) -> Option<&mut PriceMemory> {
         None
     }
 
-    /// Chooses for many days at once, and pushes one choice for each decision. Learned policies answer a batch much
-    /// faster than its parts; the other policies answer one by one.
+    /// Chooses for many days at once, and pushes one choice for each decision. Learned policies
+    /// answer a batch much faster than its parts; the other policies answer one by one.
     ///
-    /// Views borrow their days, so a list of them could not outlive a step in which the days move on. Taking an
-    /// iterator spares the caller from making a new list for every step.
+    /// Views borrow their days, so a list of them could not outlive a step in which the days move
+    /// on. Taking an iterator spares the caller from making a new list for every step.
     ///
     /// # Errors
     /// The errors of [`choose`](Self::choose), for the first decision that has no answer.

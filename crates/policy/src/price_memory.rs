@@ -4,8 +4,8 @@ use vertifleet_sim::{DayKey, Decision, View};
 
 use crate::DayPrices;
 
-/// The prices of one day at a time. If a policy plays several days by turns, the prices of each are dropped for the next,
-/// which costs time but never mixes days up.
+/// The prices of one day at a time. If a policy plays several days by turns, the prices of each are
+/// dropped for the next, which costs time but never mixes days up.
 #[derive(Debug, Clone, Default)]
 pub struct PriceMemory {
     kept: Option<Kept>,
@@ -22,8 +22,8 @@ struct Kept {
 }
 
 impl PriceMemory {
-    /// The prices for a decision, refreshed where they are due to be. They are found anew if the day is not the one
-    /// before, or starts again.
+    /// The prices for a decision, refreshed where they are due to be. They are found anew if the
+    /// day is not the one before, or starts again.
     pub fn at(&mut self, view: View<'_>, decision: &Decision) -> &mut DayPrices {
         let mut prices = match self.kept.take() {
             Some(kept) if kept.goes_on(view, decision) => kept.prices,
@@ -36,15 +36,17 @@ impl PriceMemory {
         &mut self.kept.insert(Kept { day, decision: decision.index, prices }).prices
     }
 
-    /// Whether [`at`](Self::at) would recompute the prices for no other reason than their age, which is less than an hour. A busy
-    /// service may [keep the old ones](Self::keep_old) and [refresh](Self::refresh_briefly) a copy of this memory in the background.
+    /// Whether [`at`](Self::at) would recompute the prices for no other reason than their age,
+    /// which is less than an hour. A busy service may [keep the old ones](Self::keep_old) and
+    /// [refresh](Self::refresh_briefly) a copy of this memory in the background.
     pub fn is_merely_old(&self, view: View<'_>, decision: &Decision) -> bool {
         self.kept.as_ref().is_some_and(|kept| {
             kept.goes_on(view, decision) && kept.prices.is_merely_old(view, decision.time)
         })
     }
 
-    /// Recomputes the prices for a decision of the day that they are of, with a third of the effort of [`at`](Self::at).
+    /// Recomputes the prices for a decision of the day that they are of, with a third of the effort
+    /// of [`at`](Self::at).
     pub fn refresh_briefly(&mut self, view: View<'_>, decision: &Decision) {
         if let Some(kept) = self.kept.as_mut().filter(|kept| kept.goes_on(view, decision)) {
             kept.prices.refresh_briefly(view, decision.time);
@@ -61,7 +63,8 @@ impl PriceMemory {
 impl Kept {
     /// Whether a decision is a later one of the same day.
     fn goes_on(&self, view: View<'_>, decision: &Decision) -> bool {
-        // A proposal may have been asked for a later time; its prices say nothing about the time before it.
+        // A proposal may have been asked for a later time; its prices say nothing about the time
+        // before it.
         self.day == view.day()
             && self.decision <= decision.index
             && self.prices.made_at() <= decision.time

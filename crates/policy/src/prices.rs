@@ -1,11 +1,13 @@
-//! Prices of scarce resources for the rest of a day: the price of a stand at each time, the price of the right to carry
-//! a passenger, and the worth, at these prices, of being ready somewhere.
+//! Prices of scarce resources for the rest of a day: the price of a stand at each time, the price
+//! of the right to carry a passenger, and the worth, at these prices, of being ready somewhere.
 //!
-//! If every aircraft pays for the stands that it takes and the passengers that it carries, each can decide by itself,
-//! and at the right prices the fleet shares the scarce resources (Lagrangian relaxation of Eq. 16 and of the demand;
-//! revenue management calls the prices bid prices). Prices are found by search (`prices/volume.rs`) over the decisions
-//! of the fleet at given prices (`prices/relaxation.rs`). They are computed from a [`View`], so the future enters as
-//! its forecast. They guide decisions and prove no bound: the certified upper bound is in another crate.
+//! If every aircraft pays for the stands that it takes and the passengers that it carries, each can
+//! decide by itself, and at the right prices the fleet shares the scarce resources (Lagrangian
+//! relaxation of Eq. 16 and of the demand; revenue management calls the prices bid prices). Prices
+//! are found by search (`prices/volume.rs`) over the decisions of the fleet at given prices
+//! (`prices/relaxation.rs`). They are computed from a [`View`], so the future enters as its
+//! forecast. They guide decisions and prove no bound: the certified upper bound is in another
+//! crate.
 
 mod backward_pass;
 mod base_rule;
@@ -35,12 +37,15 @@ use relaxation::Relaxation;
 pub use units::units_usd;
 use volume::{Effort, Volume};
 
-/// Effort where there are no prices yet. Days of up to about 60 vertiports have all these passes, and those of up to 30
-/// all the passes of `AGAIN`; on larger days more passes would take longer than a dispatcher can wait.
+/// Effort where there are no prices yet. Days of up to about 60 vertiports have all these passes,
+/// and those of up to 30 all the passes of `AGAIN`; on larger days more passes would take longer
+/// than a dispatcher can wait.
 const FIRST: Effort = Effort { passes: 500, hops: 480_000_000, step: 1.0 };
-/// Effort where there are prices already. Longer steps leave good prices behind: days earned 0.8 % less with 1.0.
+/// Effort where there are prices already. Longer steps leave good prices behind: days earned 0.8 %
+/// less with 1.0.
 const AGAIN: Effort = Effort { passes: 150, hops: 37_000_000, step: 0.1 };
-/// Effort of a service that is busy. Days of `paper` and of `new-york` earn 0.2 % less with it than with `AGAIN`.
+/// Effort of a service that is busy. Days of `paper` and of `new-york` earn 0.2 % less with it than
+/// with `AGAIN`.
 const BRIEFLY: Effort = Effort { passes: 50, ..AGAIN };
 /// Seconds after which prices are found anew. On days of `paper`, 5 minutes earned no more.
 const RENEWAL_S: u32 = 900;
@@ -61,7 +66,8 @@ pub struct DayPrices {
     stake_usd: f64,
     base_rule: BaseRule,
     base_rule_made_at: Time,
-    /// The destinations of decisions in the near future, from the first [`rank`](Self::rank) after a search on.
+    /// The destinations of decisions in the near future, from the first [`rank`](Self::rank) after
+    /// a search on.
     ranks: OnceLock<Ranks>,
     /// Memory to play the rest of the day out in.
     room: Option<Imagined>,
@@ -111,9 +117,9 @@ impl DayPrices {
         prices
     }
 
-    /// Updates the prices as the day goes on. After a quarter of an hour, and at once when a route closes or opens
-    /// unexpectedly, they are found anew, starting from the old ones, with the current fleet and demand. `now` is the
-    /// view's time, later on the same day.
+    /// Updates the prices as the day goes on. After a quarter of an hour, and at once when a route
+    /// closes or opens unexpectedly, they are found anew, starting from the old ones, with the
+    /// current fleet and demand. `now` is the view's time, later on the same day.
     pub fn refresh(&mut self, view: View<'_>, now: Time) {
         if self.is_old(now) || view.route_changes() != self.route_changes {
             self.search_again(view, now, AGAIN);
@@ -139,8 +145,8 @@ impl DayPrices {
         now >= self.made_at + RENEWAL_S
     }
 
-    /// Whether age is the only reason for which [`refresh`](Self::refresh) would compute the prices again, and they are young enough to
-    /// be used a little longer.
+    /// Whether age is the only reason for which [`refresh`](Self::refresh) would compute the prices
+    /// again, and they are young enough to be used a little longer.
     pub(crate) fn is_merely_old(&self, view: View<'_>, now: Time) -> bool {
         self.is_old(now)
             && now < self.made_at + OLDEST_S
@@ -166,8 +172,9 @@ impl DayPrices {
         self.base_rule_made_at = now;
     }
 
-    /// Dollars that an aircraft of a type that is ready at a vertiport at a time may still earn, less its payments for
-    /// stands and passengers; 0 past the end of operations. `time` must not be before the view's time.
+    /// Dollars that an aircraft of a type that is ready at a vertiport at a time may still earn,
+    /// less its payments for stands and passengers; 0 past the end of operations. `time` must not
+    /// be before the view's time.
     pub fn worth_usd(&self, kind: TypeIx, vertiport: VertiportIx, time: Time) -> f64 {
         self.relaxation.kept_values().worth_usd(kind, vertiport, time.seconds())
     }
@@ -182,19 +189,21 @@ impl DayPrices {
         self.relaxation.passenger_usd(period, from, to)
     }
 
-    /// Profit of a typical full flight of a type, dollars: the unit in which differences in worth are large or small.
+    /// Profit of a typical full flight of a type, dollars: the unit in which differences in worth
+    /// are large or small.
     pub fn unit_usd(&self, kind: TypeIx) -> f64 {
         self.units_usd[kind.at()]
     }
 
-    /// The stake of a decision in the rest of the day, dollars: the profit that the fleet may still earn, divided by
-    /// the number of decisions that it takes for that. 0 where nothing can be earned.
+    /// The stake of a decision in the rest of the day, dollars: the profit that the fleet may still
+    /// earn, divided by the number of decisions that it takes for that. 0 where nothing can be
+    /// earned.
     pub fn stake_usd(&self) -> f64 {
         self.stake_usd
     }
 
-    /// Worth of a feasible choice, dollars: the profit of its flight and the worth of being ready at its end, less the
-    /// price of the stand until then.
+    /// Worth of a feasible choice, dollars: the profit of its flight and the worth of being ready
+    /// at its end, less the price of the stand until then.
     #[inline]
     pub fn choice_usd(&self, view: View<'_>, decision: &Decision, to: VertiportIx) -> f64 {
         self.choices(view, decision).worth_usd(to)
@@ -208,15 +217,16 @@ impl DayPrices {
         Choices::of(view, decision, worths)
     }
 
-    /// The choice of the base rule: the feasible choice that is worth most, and of equals the vertiport listed first,
-    /// unless another rule is expected to earn more over the rest of the day.
+    /// The choice of the base rule: the feasible choice that is worth most, and of equals the
+    /// vertiport listed first, unless another rule is expected to earn more over the rest of the
+    /// day.
     #[inline]
     pub fn best_choice(&self, view: View<'_>, decision: &Decision) -> VertiportIx {
         self.base_rule.choice(self, view, decision)
     }
 
-    /// Makes [`best_with`](Self::best_with) fast for decisions up to `ahead_s` after each decision until the prices are
-    /// found anew. `view` is of the day of the prices.
+    /// Makes [`best_with`](Self::best_with) fast for decisions up to `ahead_s` after each decision
+    /// until the prices are found anew. `view` is of the day of the prices.
     pub(crate) fn rank(&self, view: View<'_>, ahead_s: u32) {
         self.ranks.get_or_init(|| {
             let until = self.made_at + RENEWAL_S + ahead_s;
@@ -224,8 +234,8 @@ impl DayPrices {
         });
     }
 
-    /// The choice of the base rule if something is added to the worth of each choice: `added_usd`, which is at most
-    /// `most_added_usd`.
+    /// The choice of the base rule if something is added to the worth of each choice: `added_usd`,
+    /// which is at most `most_added_usd`.
     #[inline]
     pub(crate) fn best_with(
         &self,

@@ -1,9 +1,10 @@
-//! Roll-outs: a choice is played on for a while in the simulator, with every aircraft following the base rule. The
-//! value of the choice is the fleet's profit until then and its worth at that time.
+//! Roll-outs: a choice is played on for a while in the simulator, with every aircraft following the
+//! base rule. The value of the choice is the fleet's profit until then and its worth at that time.
 //!
-//! A single roll-out says little, because the next hour depends on which aircraft happens to be ready a second before
-//! another. A choice is therefore rolled out several times, with the worth of all choices perturbed by a little noise,
-//! which is the same for every choice that is compared. The value is the mean.
+//! A single roll-out says little, because the next hour depends on which aircraft happens to be
+//! ready a second before another. A choice is therefore rolled out several times, with the worth of
+//! all choices perturbed by a little noise, which is the same for every choice that is compared.
+//! The value is the mean.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -26,14 +27,16 @@ pub struct RolloutSettings {
     pub price_weight: f64,
 }
 
-/// The approximate number of vertiports that all roll-outs of a decision may look at. On large days there are fewer
-/// roll-outs.
+/// The approximate number of vertiports that all roll-outs of a decision may look at. On large days
+/// there are fewer roll-outs.
 const MOST_LOOKS: usize = 2_000_000;
-/// The least number of vertiports that the roll-outs of a decision look at for which threads are worth their coordination.
+/// The least number of vertiports that the roll-outs of a decision look at for which threads are
+/// worth their coordination.
 const LEAST_SHARED_LOOKS: usize = 500_000;
 /// The approximate time from one decision of an aircraft to its next, seconds.
 const DECISION_APART_S: usize = 2_400;
-/// Number of standard errors by which another choice must be better than the one that is worth most at the prices.
+/// Number of standard errors by which another choice must be better than the one that is worth most
+/// at the prices.
 const DOUBT: f64 = 0.5;
 /// More than the largest [`Noise`].
 const MOST_NOISE: f64 = 3.5;
@@ -41,16 +44,17 @@ const MOST_NOISE: f64 = 3.5;
 /// Memory to roll a choice out in.
 #[derive(Debug, Clone, Default)]
 struct RolloutMemory {
-    /// An imagined day on which the choice was made, and in `rollout` one that continues from there.
+    /// An imagined day on which the choice was made, and in `rollout` one that continues from
+    /// there.
     begun: Option<Imagined>,
     rollout: Option<Imagined>,
 }
 
 /// Evaluates choices by roll-outs. It reuses its memory from decision to decision.
 ///
-/// On large days the choices of a decision are rolled out on several threads, unless the caller is one of several
-/// threads that work side by side already, as where many days are compared. Every roll-out writes a number of its own, so
-/// the values do not depend on the threads.
+/// On large days the choices of a decision are rolled out on several threads, unless the caller is
+/// one of several threads that work side by side already, as where many days are compared. Every
+/// roll-out writes a number of its own, so the values do not depend on the threads.
 #[derive(Debug, Clone)]
 pub struct RolloutEvaluator {
     settings: RolloutSettings,
@@ -75,8 +79,8 @@ impl RolloutEvaluator {
         }
     }
 
-    /// The value of each choice of a list if every aircraft follows the base rule, dollars, in the list's order. The
-    /// list holds feasible choices with their worth at the prices.
+    /// The value of each choice of a list if every aircraft follows the base rule, dollars, in the
+    /// list's order. The list holds feasible choices with their worth at the prices.
     pub fn values_usd(
         &mut self,
         prices: &DayPrices,
@@ -92,8 +96,8 @@ impl RolloutEvaluator {
         &self.values_usd
     }
 
-    /// The choice of [`best_choice`](Self::best_choice) and the [`values_usd`](Self::values_usd), from the same
-    /// roll-outs.
+    /// The choice of [`best_choice`](Self::best_choice) and the [`values_usd`](Self::values_usd),
+    /// from the same roll-outs.
     pub fn best_choice_with_values(
         &mut self,
         prices: &DayPrices,
@@ -107,9 +111,10 @@ impl RolloutEvaluator {
         (best, &self.values_usd)
     }
 
-    /// The best choice of a list whose first is the best at the prices. It is the first, unless another is better
-    /// beyond doubt. A flight without passengers must also earn more than the first choice when the whole rest of the
-    /// day is played out, since it costs money now for a worth that prices only promise for later.
+    /// The best choice of a list whose first is the best at the prices. It is the first, unless
+    /// another is better beyond doubt. A flight without passengers must also earn more than the
+    /// first choice when the whole rest of the day is played out, since it costs money now for a
+    /// worth that prices only promise for later.
     pub fn best_choice(
         &mut self,
         prices: &DayPrices,
@@ -177,8 +182,8 @@ impl RolloutEvaluator {
         rollouts_usd.resize(listed.len() * rollouts, 0.0);
         prices.rank(view, settings.horizon_s);
         let looks = settings.looks(view, listed.len()) * rollouts;
-        // A thread of the pool that waits for another would take up other work of the pool meanwhile, such as a whole
-        // day, and the decision would seem to take as long.
+        // A thread of the pool that waits for another would take up other work of the pool
+        // meanwhile, such as a whole day, and the decision would seem to take as long.
         if looks >= LEAST_SHARED_LOOKS && rayon::current_thread_index().is_none() {
             rooms.resize_with(rooms.len().max(listed.len()), RolloutMemory::default);
             let choices = rollouts_usd.par_chunks_exact_mut(rollouts).zip(listed).zip(rooms);
@@ -194,7 +199,8 @@ impl RolloutEvaluator {
         rollouts
     }
 
-    /// The profit of the day if this choice is taken and the fleet then follows the base rule to the end.
+    /// The profit of the day if this choice is taken and the fleet then follows the base rule to
+    /// the end.
     fn day_usd(&mut self, prices: &DayPrices, view: View<'_>, to: VertiportIx) -> f64 {
         self.rooms.resize_with(self.rooms.len().max(1), RolloutMemory::default);
         let day = view.imagined_in(&mut self.rooms[0].begun);
@@ -207,8 +213,8 @@ impl RolloutEvaluator {
     }
 }
 
-/// The difference in dollars of the mean of some roll-outs to that of others with the same noise, less a margin for
-/// chance.
+/// The difference in dollars of the mean of some roll-outs to that of others with the same noise,
+/// less a margin for chance.
 fn surely_more_usd(rollouts_usd: &[f64], others_usd: &[f64]) -> f64 {
     let count = rollouts_usd.len() as f64;
     let differences = || rollouts_usd.iter().zip(others_usd).map(|(one, other)| one - other);
@@ -227,17 +233,17 @@ fn copied<'room>(begun: &Imagined, room: &'room mut Option<Imagined>) -> &'room 
 }
 
 impl RolloutSettings {
-    /// The settings for a day. On a day so large that one roll-out of every choice is too much, choices are played on
-    /// for half the time. On three days of 100 vertiports and 2,000 aircraft this took half as long and earned 0.05 to
-    /// 0.12 % more.
+    /// The settings for a day. On a day so large that one roll-out of every choice is too much,
+    /// choices are played on for half the time. On three days of 100 vertiports and 2,000 aircraft
+    /// this took half as long and earned 0.05 to 0.12 % more.
     fn on_day_of(&self, view: View<'_>) -> Self {
         let is_large = self.looks(view, Shortlist::MOST) > MOST_LOOKS;
         let horizon_s = if is_large { self.horizon_s / 2 } else { self.horizon_s };
         Self { horizon_s, ..self.clone() }
     }
 
-    /// Number of roll-outs of each choice: one if nothing is at stake, so that noise would change nothing, and fewer
-    /// than the settings say on large days.
+    /// Number of roll-outs of each choice: one if nothing is at stake, so that noise would change
+    /// nothing, and fewer than the settings say on large days.
     fn rollouts(&self, prices: &DayPrices, view: View<'_>, choices: usize) -> u32 {
         if prices.stake_usd() == 0.0 {
             return 1;
@@ -246,7 +252,8 @@ impl RolloutSettings {
             .map_or(self.rollouts, |most| self.rollouts.min(most.max(1)))
     }
 
-    /// The approximate number of vertiports that a roll-out of each choice looks at, all choices together.
+    /// The approximate number of vertiports that a roll-out of each choice looks at, all choices
+    /// together.
     fn looks(&self, view: View<'_>, choices: usize) -> usize {
         let decisions = view.places().len() * (self.horizon_s as usize).div_ceil(DECISION_APART_S);
         (decisions * view.vertiports() * choices).max(1)
@@ -274,7 +281,8 @@ impl RolloutSettings {
         *last_usd = self.played_usd(prices, begun, until, number);
     }
 
-    /// Plays a roll-out to a time. Returns the fleet's profit until then plus its worth at that time.
+    /// Plays a roll-out to a time. Returns the fleet's profit until then plus its worth at that
+    /// time.
     fn played_usd(
         &self,
         prices: &DayPrices,
@@ -293,7 +301,8 @@ impl RolloutSettings {
         rollout.ledger().profit_usd()
     }
 
-    /// The choice whose worth at the prices, perturbed by noise, is highest. The first roll-out has no noise.
+    /// The choice whose worth at the prices, perturbed by noise, is highest. The first roll-out has
+    /// no noise.
     fn perturbed_choice(
         &self,
         prices: &DayPrices,
@@ -310,8 +319,8 @@ impl RolloutSettings {
         prices.best_with(view, decision, noise_usd * MOST_NOISE, added_usd)
     }
 
-    /// The choice whose worth, perturbed by the noise of a roll-out, is highest. The first roll-out, number 0, has no
-    /// noise. Without choices, the aircraft holds.
+    /// The choice whose worth, perturbed by the noise of a roll-out, is highest. The first
+    /// roll-out, number 0, has no noise. Without choices, the aircraft holds.
     pub fn perturbed_best(
         &self,
         prices: &DayPrices,
@@ -328,7 +337,8 @@ impl RolloutSettings {
         PricedChoice::best(choices.into_iter().map(perturbed)).unwrap_or(decision.at)
     }
 
-    /// The value of a choice: the mean of its roll-outs, and with its weight its worth at the prices; dollars.
+    /// The value of a choice: the mean of its roll-outs, and with its weight its worth at the
+    /// prices; dollars.
     pub fn value_usd(&self, worth_usd: f64, rollouts_usd: &[f64]) -> f64 {
         let mean_usd = rollouts_usd.iter().sum::<f64>() / rollouts_usd.len() as f64;
         self.price_weight * worth_usd + mean_usd
@@ -347,8 +357,8 @@ impl Noise {
         Self { draws: Draws::of(u64::from(rollout), key) }
     }
 
-    /// The noise of a choice: approximately normal with mean 0 and standard deviation 1 (the sum of four uniform
-    /// numbers).
+    /// The noise of a choice: approximately normal with mean 0 and standard deviation 1 (the sum of
+    /// four uniform numbers).
     #[inline]
     fn at(self, to: VertiportIx) -> f64 {
         let bits = self.draws.bits(to.0.into());
@@ -357,8 +367,8 @@ impl Noise {
     }
 }
 
-/// The worth of the positions of all aircraft, less the rent of each stand from now until its aircraft is ready,
-/// dollars.
+/// The worth of the positions of all aircraft, less the rent of each stand from now until its
+/// aircraft is ready, dollars.
 pub fn fleet_worth_usd(prices: &DayPrices, view: View<'_>, now: Time) -> f64 {
     let worth_usd = |aircraft: AircraftIx| {
         let (place, ready) = (view.places()[aircraft.at()], view.ready_at(aircraft));

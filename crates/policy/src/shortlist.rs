@@ -7,19 +7,21 @@ use crate::{DayPrices, PricedChoice};
 /// The shortlist of a decision: the choices that are worth most at the prices.
 #[derive(Debug, Clone, Default)]
 pub struct Shortlist {
-    /// The choices with their worth at the prices, dollars: the best first, and of equals the vertiport listed first.
+    /// The choices with their worth at the prices, dollars: the best first, and of equals the
+    /// vertiport listed first.
     ranked: Vec<PricedChoice>,
 }
 
 impl Shortlist {
     /// The most choices that are kept.
     pub const MOST: usize = 5;
-    /// The most by which a kept choice may be worth less than the best, in [units](DayPrices::unit_usd).
+    /// The most by which a kept choice may be worth less than the best, in
+    /// [units](DayPrices::unit_usd).
     const TOO_BAD: f64 = 0.5;
 
-    /// Ranks the choices that the base rule permits and keeps those that are nearly as good as the best one. A flight
-    /// without passengers is kept only if it is the best choice: its gain comes later and is known from the prices
-    /// alone, and they prefer another choice.
+    /// Ranks the choices that the base rule permits and keeps those that are nearly as good as the
+    /// best one. A flight without passengers is kept only if it is the best choice: its gain comes
+    /// later and is known from the prices alone, and they prefer another choice.
     pub fn rank(
         &mut self,
         prices: &DayPrices,
@@ -33,8 +35,8 @@ impl Shortlist {
         self.keep_most()
     }
 
-    /// Ranks choices like [`rank`](Self::rank), but keeps flights without passengers, for an evaluator that
-    /// [confirms](crate::RolloutEvaluator::best_choice) them.
+    /// Ranks choices like [`rank`](Self::rank), but keeps flights without passengers, for an
+    /// evaluator that [confirms](crate::RolloutEvaluator::best_choice) them.
     pub fn rank_with_repositioning(
         &mut self,
         prices: &DayPrices,
@@ -45,8 +47,8 @@ impl Shortlist {
         self.keep_most()
     }
 
-    /// Ranks the choices that the base rule permits and that are nearly as good as the best one. Only these are sorted,
-    /// because on a large network they are few.
+    /// Ranks the choices that the base rule permits and that are nearly as good as the best one.
+    /// Only these are sorted, because on a large network they are few.
     fn rank_near(&mut self, prices: &DayPrices, view: View<'_>, decision: &Decision) {
         self.ranked.clear();
         self.ranked.extend(prices.open_choices(view, decision));

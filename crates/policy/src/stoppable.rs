@@ -1,11 +1,13 @@
-//! A policy that answers until it is asked to stop, so that a day that is being played can be stopped.
+//! A policy that answers until it is asked to stop, so that a day that is being played can be
+//! stopped.
 
 use vertifleet_core::{Stop, VertiportIx};
 use vertifleet_sim::{Decision, View};
 
 use crate::{Policy, PolicyError};
 
-/// Answers like another policy until a stop is requested, and with [`PolicyError::Stopped`] from then on.
+/// Answers like another policy until a stop is requested, and with [`PolicyError::Stopped`] from
+/// then on.
 pub struct Stoppable<'a, P: ?Sized> {
     /// The policy that answers.
     pub policy: &'a mut P,

@@ -1,5 +1,5 @@
-//! A progress bar with the time left, on stderr. It is not drawn if stderr is not a terminal, or for work that is done
-//! in a moment.
+//! A progress bar with the time left, on stderr. It is not drawn if stderr is not a terminal, or
+//! for work that is done in a moment.
 
 use std::convert::Infallible;
 use std::fmt::Write;
@@ -26,7 +26,8 @@ pub struct Bar {
 }
 
 impl Bar {
-    /// Creates a bar over `total` units of work that take about the same time each; `units` names them.
+    /// Creates a bar over `total` units of work that take about the same time each; `units` names
+    /// them.
     pub fn new(total: u64, units: impl Into<String>) -> Self {
         let pace = Arc::new(Mutex::new(Pace::begin(total)));
         let shown = Arc::clone(&pace);
@@ -93,7 +94,8 @@ fn locked(pace: &Mutex<Pace>) -> MutexGuard<'_, Pace> {
     pace.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// The mean time of a unit so far. The bar's own estimate forgets a unit within seconds, but units may last minutes.
+/// The mean time of a unit so far. The bar's own estimate forgets a unit within seconds, but units
+/// may last minutes.
 struct Pace {
     begun: Instant,
     /// The time at which the last unit was done.

@@ -4,8 +4,8 @@ use vertifleet_study::Watch;
 
 use crate::Bar;
 
-/// One bar for each policy. A single bar could not show the time left, since one policy may need a million times as
-/// long for a day as another, and the later policies' times are not known yet.
+/// One bar for each policy. A single bar could not show the time left, since one policy may need a
+/// million times as long for a day as another, and the later policies' times are not known yet.
 pub struct Bars;
 
 impl Watch for Bars {

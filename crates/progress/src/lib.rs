@@ -1,8 +1,8 @@
 //! Shows the progress of long work on the terminal, for the program and the Python package alike.
 //!
-//! This crate builds on `vertifleet-study` and `vertifleet-optimize`, whose long calls it watches, and on nothing else
-//! here. [`Bars`] watches the days of a study, [`SearchBar`] the search for a plan, and [`Bar`] any work whose units can be
-//! counted. Without a terminal nothing is shown.
+//! This crate builds on `vertifleet-study` and `vertifleet-optimize`, whose long calls it watches,
+//! and on nothing else here. [`Bars`] watches the days of a study, [`SearchBar`] the search for a
+//! plan, and [`Bar`] any work whose units can be counted. Without a terminal nothing is shown.
 //!
 //! ```
 //! use vertifleet_core::{Network, Stop};

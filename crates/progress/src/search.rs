@@ -1,5 +1,5 @@
-//! The progress bar of a search for a schedule: the share of its budget that is used, and how good the best schedule
-//! is.
+//! The progress bar of a search for a schedule: the share of its budget that is used, and how good
+//! the best schedule is.
 
 use std::convert::Infallible;
 use std::sync::Arc;
@@ -29,7 +29,8 @@ struct Shown {
 }
 
 impl SearchBar {
-    /// Creates the bar of a search; `units` names hundredths of its budget, which is time if there is a time limit.
+    /// Creates the bar of a search; `units` names hundredths of its budget, which is time if there
+    /// is a time limit.
     pub fn new(units: &str, limit: Option<Duration>) -> Self {
         let bar = Bar::new(WHOLE, units);
         let shown = Arc::new(Shown { bar, done: AtomicU64::new(0) });
@@ -68,7 +69,8 @@ impl Shown {
     }
 }
 
-/// Advances a bar with the time until the returned value is dropped, because a search may report nothing for seconds.
+/// Advances a bar with the time until the returned value is dropped, because a search may report
+/// nothing for seconds.
 fn move_with_time(shown: Arc<Shown>, limit: Duration) -> Sender<Infallible> {
     let (alive, gone) = channel();
     let begun = Instant::now();

@@ -10,8 +10,9 @@ use crate::error::Error;
 /// The years of days. Time zones are of our time.
 const YEARS: std::ops::RangeInclusive<i16> = 1970..=2199;
 
-/// A date at a place. 00:00:00 of the day is twelve hours before noon of the date, which is midnight but for days on which
-/// the clocks change; so every day has its hours in order, as in timetables (GTFS).
+/// A date at a place. 00:00:00 of the day is twelve hours before noon of the date, which is
+/// midnight but for days on which the clocks change; so every day has its hours in order, as in
+/// timetables (GTFS).
 #[derive(Debug, Clone)]
 pub(crate) struct Calendar {
     zone: TimeZone,
@@ -46,7 +47,8 @@ impl Calendar {
         Some(Timestamp::now().to_zoned(zone).date().to_string())
     }
 
-    /// The time of the day at an instant in ISO 8601, with its offset (`2026-11-23T07:10:00-05:00`); whole seconds.
+    /// The time of the day at an instant in ISO 8601, with its offset
+    /// (`2026-11-23T07:10:00-05:00`); whole seconds.
     pub(crate) fn read(&self, text: &str) -> Option<Time> {
         let instant: Timestamp = text.parse().ok()?;
         let seconds = instant.duration_since(self.begin).as_secs();

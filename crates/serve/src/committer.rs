@@ -1,5 +1,5 @@
-//! The one writer of events. It takes all events that wait and commits them together, so that many clients share the
-//! cost of one write to the disk, and answers each when its events are durable.
+//! The one writer of events. It takes all events that wait and commits them together, so that many
+//! clients share the cost of one write to the disk, and answers each when its events are durable.
 
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -72,7 +72,8 @@ impl Committer {
         self.failed.was_a_moment_ago()
     }
 
-    /// Puts events into the queue. Events of a day must come in their order, so the caller holds the day's lock.
+    /// Puts events into the queue. Events of a day must come in their order, so the caller holds
+    /// the day's lock.
     pub(crate) fn push(&self, append: Append) {
         if let Err(refused) = self.queue.send(append) {
             let stopped = Error::Store { cause: "the service is stopping".to_owned() };
@@ -94,8 +95,9 @@ async fn write_all(
     }
 }
 
-/// Stores a batch and answers every request in it. If the batch cannot be stored, each of its requests is tried alone, so
-/// that one that conflicts does not fail the others; but a database that hangs is waited for only once.
+/// Stores a batch and answers every request in it. If the batch cannot be stored, each of its
+/// requests is tried alone, so that one that conflicts does not fail the others; but a database
+/// that hangs is waited for only once.
 async fn write(store: &Store, metrics: &Metrics, failed: &LastFailure, batch: &mut Vec<Append>) {
     let mut together = match &batch[..] {
         [_] => None,
@@ -105,7 +107,8 @@ async fn write(store: &Store, metrics: &Metrics, failed: &LastFailure, batch: &m
         let outcome = match &together {
             Some(Ok(())) => Ok(()),
             Some(Err(Error::StoreHangs { s })) => Err(Error::StoreHangs { s: *s }),
-            // An earlier event of the day could not be stored. The day is read again before this one is tried again.
+            // An earlier event of the day could not be stored. The day is read again before this
+            // one is tried again.
             _ if append.day.has_failed.load(Ordering::Acquire) => Err(Error::Conflict),
             _ => store_alone(store, &append).await,
         };
@@ -120,7 +123,8 @@ async fn write(store: &Store, metrics: &Metrics, failed: &LastFailure, batch: &m
             Err(error) => {
                 let day = append.day.id();
                 match error {
-                    // Another service was quicker, or has archived or deleted the day; the client is told.
+                    // Another service was quicker, or has archived or deleted the day; the client
+                    // is told.
                     Error::Conflict | Error::Archived { .. } | Error::NotFound { .. } => {
                         tracing::debug!(day, %error, "events were not stored");
                     }
@@ -137,7 +141,8 @@ async fn write(store: &Store, metrics: &Metrics, failed: &LastFailure, batch: &m
     }
 }
 
-/// Stores what one request brought. If it is stored already, it was by a commit whose answer was lost.
+/// Stores what one request brought. If it is stored already, it was by a commit whose answer was
+/// lost.
 async fn store_alone(store: &Store, append: &Append) -> Result<(), Error> {
     let outcome = store_together(store, std::slice::from_ref(append)).await;
     match (&outcome, append.events.last()) {

@@ -29,11 +29,13 @@ use crate::limits::Limits;
 
 /// The handshake of TLS takes no longer.
 const HANDSHAKE: Duration = Duration::from_secs(10);
-/// Connections that wait to be taken. A client whose connection finds no room tries again only after a second.
+/// Connections that wait to be taken. A client whose connection finds no room tries again only
+/// after a second.
 const BACKLOG: u32 = 4_096;
 /// The longest head of a request, which is kept in memory before anything is known of who sent it.
 const LONGEST_HEAD: usize = 64 << 10;
-/// When no connection can be taken, because there are too many files for example, the next try comes after this time.
+/// When no connection can be taken, because there are too many files for example, the next try
+/// comes after this time.
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// What a connection is taken with.
@@ -51,15 +53,16 @@ struct Way {
 /// Returns what the operating system says if the address cannot be used.
 pub(crate) fn listen(address: SocketAddr) -> std::io::Result<TcpListener> {
     let socket = if address.is_ipv4() { TcpSocket::new_v4()? } else { TcpSocket::new_v6()? };
-    // A service that starts again takes its address back at once; elsewhere this would let two listen at one address.
+    // A service that starts again takes its address back at once; elsewhere this would let two
+    // listen at one address.
     #[cfg(unix)]
     socket.set_reuseaddr(true)?;
     socket.bind(address)?;
     socket.listen(BACKLOG)
 }
 
-/// Takes connections until the service stops, and returns when the last of them has ended. A connection of an address that has
-/// `limits.connections_per_address` already is closed.
+/// Takes connections until the service stops, and returns when the last of them has ended. A
+/// connection of an address that has `limits.connections_per_address` already is closed.
 pub(crate) async fn take(
     listener: TcpListener,
     router: Router,
@@ -143,7 +146,8 @@ impl Way {
 /// Reads a certificate with its chain and its key, both in PEM files.
 ///
 /// # Errors
-/// Returns [`Error::BadCertificate`] if a file cannot be read, or if the two do not belong together.
+/// Returns [`Error::BadCertificate`] if a file cannot be read, or if the two do not belong
+/// together.
 pub(crate) fn acceptor(certificate: &Path, key: &Path) -> Result<TlsAcceptor, Error> {
     let bad = |file: &Path, rule: String| Error::BadCertificate { file: file.to_owned(), rule };
     let chain: Vec<CertificateDer<'static>> = CertificateDer::pem_file_iter(certificate)

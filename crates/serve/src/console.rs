@@ -1,4 +1,5 @@
-//! The console: pages and scripts that anybody may have, since the data behind them needs a token as ever.
+//! The console: pages and scripts that anybody may have, since the data behind them needs a token
+//! as ever.
 
 use std::sync::Arc;
 
@@ -23,8 +24,9 @@ pub(crate) struct Console {
 }
 
 impl Console {
-    /// The console, with a base map of the operator's own in the place of the bundled one: a style of MapLibre, or a file of
-    /// `PMTiles`. What a style names must come from the same origin, since pages may load from no other.
+    /// The console, with a base map of the operator's own in the place of the bundled one: a style
+    /// of MapLibre, or a file of `PMTiles`. What a style names must come from the same origin,
+    /// since pages may load from no other.
     ///
     /// # Errors
     /// Returns [`Error::BadBasemap`] if the address is none of HTTP.
@@ -87,8 +89,8 @@ pub(crate) fn is_open(path: &str) -> bool {
     path == "/" || path.starts_with("/assets/")
 }
 
-/// What the pages may load, the same as `web/security.ts` has it: their own files, and what the service answers. `map` is
-/// where a base map comes from, if it is another place.
+/// What the pages may load, the same as `web/security.ts` has it: their own files, and what the
+/// service answers. `map` is where a base map comes from, if it is another place.
 fn policy(map: &str) -> String {
     format!(
         "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:{map}; font-src 'self'; \

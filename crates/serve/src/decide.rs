@@ -1,5 +1,5 @@
-//! Decisions with their reasons: what a policy would do with an aircraft, what every alternative is worth, and why some
-//! are not possible.
+//! Decisions with their reasons: what a policy would do with an aircraft, what every alternative is
+//! worth, and why some are not possible.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

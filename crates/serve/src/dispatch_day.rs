@@ -60,11 +60,12 @@ impl DispatchDay {
         told.chain(self.live.notices().map(|notice| (None, notice.to_string())))
     }
 
-    /// Takes an event in that a client sends, unless its time is probably wrong, and returns it as it is to be
-    /// stored.
+    /// Takes an event in that a client sends, unless its time is probably wrong, and returns it as
+    /// it is to be stored.
     ///
     /// # Errors
-    /// Returns [`Error::UnknownId`] or [`Error::ReportError`] if the day does not take it. Nothing has changed then.
+    /// Returns [`Error::UnknownId`] or [`Error::ReportError`] if the day does not take it. Nothing
+    /// has changed then.
     pub(crate) fn admit(
         &mut self,
         event: Event,
@@ -80,7 +81,8 @@ impl DispatchDay {
     /// Takes an event in, and returns it as it is to be stored.
     ///
     /// # Errors
-    /// Returns [`Error::UnknownId`] or [`Error::ReportError`] if the day cannot take it. Nothing has changed then.
+    /// Returns [`Error::UnknownId`] or [`Error::ReportError`] if the day cannot take it. Nothing
+    /// has changed then.
     pub(crate) fn take(
         &mut self,
         event: Event,

@@ -1,4 +1,5 @@
-//! Events as they are written and read: what a live day is told, in JSON, with ids instead of positions.
+//! Events as they are written and read: what a live day is told, in JSON, with ids instead of
+//! positions.
 
 use std::collections::HashMap;
 use std::fmt;

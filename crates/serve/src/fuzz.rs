@@ -1,8 +1,8 @@
-//! Requests of any content, for fuzzing. Whatever comes, it is answered, and every day stays one that can be described,
-//! played on, and read again from the store as it is in memory.
+//! Requests of any content, for fuzzing. Whatever comes, it is answered, and every day stays one
+//! that can be described, played on, and read again from the store as it is in memory.
 //!
-//! Requests go through the router of the service, so all that is read of a request is read here as it is there: paths,
-//! queries, headers, bodies, and what is in them.
+//! Requests go through the router of the service, so all that is read of a request is read here as
+//! it is there: paths, queries, headers, bodies, and what is in them.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -76,11 +76,12 @@ impl AnyRequest {
         Self { runtime, client }
     }
 
-    /// Sends bytes in the place of everything that a request may have: as a body, as a query, as a part of a path, and as
-    /// a header. Returns whether a request with this body was carried out.
+    /// Sends bytes in the place of everything that a request may have: as a body, as a query, as a
+    /// part of a path, and as a header. Returns whether a request with this body was carried out.
     ///
     /// # Panics
-    /// Panics if a request is not answered as it should be, or if a day is not as it should be afterwards.
+    /// Panics if a request is not answered as it should be, or if a day is not as it should be
+    /// afterwards.
     pub fn send(&mut self, bytes: &[u8]) -> bool {
         self.runtime.block_on(self.client.send_everywhere(bytes))
     }
@@ -171,7 +172,8 @@ impl Client {
         self.answer(self.request(method, uri, body)).await
     }
 
-    /// The answer to a request that was carried out, as far as it is JSON. The others must have been refused for a reason.
+    /// The answer to a request that was carried out, as far as it is JSON. The others must have
+    /// been refused for a reason.
     async fn answer(&mut self, request: Request<Body>) -> Option<Value> {
         let asked = format!("{} {}", request.method(), request.uri());
         let answer = self.router.call(request).await.expect("it answers every request");
@@ -252,7 +254,8 @@ mod tests {
     /// Every good request is spoilt in so many ways.
     const WAYS: u32 = 100;
 
-    /// Bodies (`.json`), queries and other texts that mean something on the small day. Fuzzing begins with them.
+    /// Bodies (`.json`), queries and other texts that mean something on the small day. Fuzzing
+    /// begins with them.
     fn good() -> Vec<(PathBuf, Vec<u8>)> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/requests");
         let files = std::fs::read_dir(folder).expect("a folder of the project");

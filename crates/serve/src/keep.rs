@@ -1,4 +1,5 @@
-//! Keeping the data: every event checked, copies made and put back, days written out for other programs.
+//! Keeping the data: every event checked, copies made and put back, days written out for other
+//! programs.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -88,7 +89,8 @@ impl Keeper {
         Ok(Self { runtime, store })
     }
 
-    /// Reads every event of every day, checks its sum, and plays it. Days that are gone although they were not deleted come last.
+    /// Reads every event of every day, checks its sum, and plays it. Days that are gone although
+    /// they were not deleted come last.
     ///
     /// # Errors
     /// Returns [`Error::Store`] if the data cannot be read at all.
@@ -138,8 +140,8 @@ impl Keeper {
     /// Writes a copy of all data to a new file, as it is at one moment, while the service may run.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] if the file exists or cannot be written, or if the data lies in `PostgreSQL`, whose own
-    /// programs make copies.
+    /// Returns [`Error::Store`] if the file exists or cannot be written, or if the data lies in
+    /// `PostgreSQL`, whose own programs make copies.
     pub fn backup(&self, file: &Path) -> Result<(), Error> {
         if self.store.is_shared() {
             let cause = "a PostgreSQL database is copied by pg_dump".to_owned();
@@ -233,8 +235,8 @@ fn written_out(
 /// Puts a copy back as the data of a service, into a folder that has none.
 ///
 /// # Errors
-/// Returns [`Error::Store`] if the folder has data already or cannot be written to, and [`Error::BadData`] if the copy is
-/// damaged.
+/// Returns [`Error::Store`] if the folder has data already or cannot be written to, and
+/// [`Error::BadData`] if the copy is damaged.
 pub fn restore(copy: &Path, folder: &Path) -> Result<Contents, Error> {
     let database = folder.join(DATABASE);
     let failed = |cause: String| Error::Store { cause };
@@ -248,7 +250,8 @@ pub fn restore(copy: &Path, folder: &Path) -> Result<Contents, Error> {
     }
     let bytes =
         std::fs::read(copy).map_err(|error| failed(format!("{}: {error}", copy.display())))?;
-    // It is checked in a place of its own, so that a damaged copy never looks like the data of a service.
+    // It is checked in a place of its own, so that a damaged copy never looks like the data of a
+    // service.
     let trial: PathBuf = folder.join("restoring");
     let io_failed = |error: std::io::Error| failed(format!("{}: {error}", trial.display()));
     make_folder(&trial).map_err(io_failed)?;

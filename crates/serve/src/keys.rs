@@ -1,7 +1,8 @@
 //! The keys of requests: which are being carried out, and which may have been before.
 //!
-//! A request with a key that was never used must not wait for the store to say so. All used keys are therefore kept in
-//! memory, as hashes, as long as there are not too many; otherwise, and for a key that may be known, the store is asked.
+//! A request with a key that was never used must not wait for the store to say so. All used keys
+//! are therefore kept in memory, as hashes, as long as there are not too many; otherwise, and for a
+//! key that may be known, the store is asked.
 
 use std::collections::HashSet;
 use std::hash::{BuildHasher as _, RandomState};

@@ -5,7 +5,8 @@ use std::time::Duration;
 /// The limits of a running service.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Limits {
-    /// Connections at once. Further ones wait until one of them ends; fewer if the operating system permits fewer files.
+    /// Connections at once. Further ones wait until one of them ends; fewer if the operating system
+    /// permits fewer files.
     pub connections: usize,
     /// Connections of one address of another machine at once. Further ones are closed.
     pub connections_per_address: usize,

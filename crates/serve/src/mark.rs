@@ -1,5 +1,6 @@
-//! The mark of an event: its number and the sum over the log up to it, as `17-9af3c210`. A day that was put back from a copy and went
-//! on may have an event of the same number; its mark is another one.
+//! The mark of an event: its number and the sum over the log up to it, as `17-9af3c210`. A day that
+//! was put back from a copy and went on may have an event of the same number; its mark is another
+//! one.
 
 use std::fmt;
 

@@ -1,4 +1,5 @@
-//! Times in requests and answers: seconds since midnight, `HH:MM:SS`, or ISO 8601 on days that have a date.
+//! Times in requests and answers: seconds since midnight, `HH:MM:SS`, or ISO 8601 on days that have
+//! a date.
 
 use std::cell::RefCell;
 use std::fmt;

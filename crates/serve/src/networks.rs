@@ -1,4 +1,5 @@
-//! The networks from which days can be made: those that the program ships, and those that were uploaded.
+//! The networks from which days can be made: those that the program ships, and those that were
+//! uploaded.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;

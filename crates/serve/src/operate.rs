@@ -1,5 +1,5 @@
-//! The simulated operator: plays a whole day through the public API, as the people and systems of an operator would. It
-//! is the demonstration, the load, and the test from end to end.
+//! The simulated operator: plays a whole day through the public API, as the people and systems of
+//! an operator would. It is the demonstration, the load, and the test from end to end.
 
 mod by_hand;
 mod client;
@@ -36,8 +36,8 @@ pub struct Operation {
     pub trusted: Option<PathBuf>,
     /// Seconds of the day that pass in a second; `None` to go as fast as it goes.
     pub speed: Option<f64>,
-    /// Whether others decide, as people at their consoles do. The operator tells the service the time of each decision, and
-    /// the day waits until it is taken.
+    /// Whether others decide, as people at their consoles do. The operator tells the service the
+    /// time of each decision, and the day waits until it is taken.
     pub by_hand: bool,
 }
 
@@ -59,7 +59,8 @@ pub struct OperationReport {
     pub sent_again: u64,
 }
 
-/// Operates a day to its end. `watch` is called with the time of each decision and how long it took.
+/// Operates a day to its end. `watch` is called with the time of each decision and how long it
+/// took.
 ///
 /// # Errors
 /// Returns [`Error::NoAnswer`] if the service does not answer or refuses a request.

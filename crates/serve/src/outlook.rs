@@ -1,4 +1,5 @@
-//! The outlook of a day: how it is expected to go on, and what it would be if things were otherwise.
+//! The outlook of a day: how it is expected to go on, and what it would be if things were
+//! otherwise.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,4 +1,5 @@
-//! The policies that decide: those that the program has, and weights that were uploaded under names of their own.
+//! The policies that decide: those that the program has, and weights that were uploaded under names
+//! of their own.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -277,7 +278,8 @@ mod tests {
             let found = found.expect("it is listed");
             (found.name, found.weights_sha256) == ("ours".to_owned(), put.weights_sha256.clone())
         };
-        // An older program kept no description, and one of an older upload says nothing of this one.
+        // An older program kept no description, and one of an older upload says nothing of this
+        // one.
         for spoilt in ["DELETE FROM descriptions", "UPDATE descriptions SET created_ms = 0"] {
             assert_eq!(run(spoilt).await, 1, "putting or listing described them");
             assert!(same(listed().await.expect("the weights are there")));

@@ -1,6 +1,6 @@
-//! Recomputes prices in the background while the service is busy, and with less effort: decisions keep the old ones until then.
-//! While it is not busy, a decision recomputes them itself, so that a day that is dispatched alone ends as in the simulator, to
-//! the last digit.
+//! Recomputes prices in the background while the service is busy, and with less effort: decisions
+//! keep the old ones until then. While it is not busy, a decision recomputes them itself, so that a
+//! day that is dispatched alone ends as in the simulator, to the last digit.
 
 use std::sync::{Mutex, PoisonError, mpsc};
 use std::thread;
@@ -57,8 +57,8 @@ impl Renewals {
 pub(crate) struct Renewing(Option<mpsc::Receiver<PriceMemory>>);
 
 impl Renewing {
-    /// Call this before each decision: it takes over prices that have been recomputed, and if the service is busy, has old ones
-    /// recomputed in the background.
+    /// Call this before each decision: it takes over prices that have been recomputed, and if the
+    /// service is busy, has old ones recomputed in the background.
     pub(crate) fn before(
         &mut self,
         policy: &mut dyn Policy,
@@ -73,7 +73,8 @@ impl Renewing {
         }
         memory.keep_old(false);
         let Some(renewals) = busy.filter(|_| memory.is_merely_old(day.view(), decision)) else {
-            // The decision finds prices itself if they are due, and what was found before it is of no use then.
+            // The decision finds prices itself if they are due, and what was found before it is of
+            // no use then.
             self.0 = None;
             return;
         };
@@ -104,8 +105,8 @@ mod tests {
         Simulation::new(Arc::new(network.draw(DaySeed::validation(2).expect("a seed"))))
     }
 
-    /// Plays a day and returns its profit. `is_busy` says for each decision whether the service is busy; prices that are being
-    /// recomputed arrive before the tenth decision after that.
+    /// Plays a day and returns its profit. `is_busy` says for each decision whether the service is
+    /// busy; prices that are being recomputed arrive before the tenth decision after that.
     fn profit_usd(is_busy: impl Fn(u32) -> bool) -> f64 {
         let (renewals, mut renewing) = (Renewals::start(), Renewing::default());
         let (mut policy, mut day) = (BidPricePolicy::default(), day());

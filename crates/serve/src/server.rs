@@ -34,10 +34,11 @@ pub struct Settings {
     pub protection: Protection,
     /// What it takes at most.
     pub limits: Limits,
-    /// The collector of OpenTelemetry that spans of requests are sent to, for example `http://127.0.0.1:4318`.
+    /// The collector of OpenTelemetry that spans of requests are sent to, for example
+    /// `http://127.0.0.1:4318`.
     pub collector: Option<String>,
-    /// The address of a base map that the console shows in the place of the bundled one: a style of `MapLibre`, or a file of
-    /// `PMTiles`.
+    /// The address of a base map that the console shows in the place of the bundled one: a style of
+    /// `MapLibre`, or a file of `PMTiles`.
     pub basemap: Option<String>,
 }
 
@@ -57,12 +58,12 @@ pub enum Protection {
     },
 }
 
-/// Runs the service until it is asked to stop. `ready` is called with the address once it listens. Requests that are
-/// being carried out are finished first.
+/// Runs the service until it is asked to stop. `ready` is called with the address once it listens.
+/// Requests that are being carried out are finished first.
 ///
 /// # Errors
-/// Returns [`Error::CannotListen`] if the address cannot be used, [`Error::Unprotected`] if others can reach it and
-/// nothing protects it, [`Error::BadCertificate`], [`Error::BadCollector`],
+/// Returns [`Error::CannotListen`] if the address cannot be used, [`Error::Unprotected`] if others
+/// can reach it and nothing protects it, [`Error::BadCertificate`], [`Error::BadCollector`],
 /// [`Error::BadBasemap`], and the errors of the store.
 pub fn serve(
     settings: &Settings,
@@ -82,7 +83,8 @@ pub fn serve(
         };
         let store = Store::open(&settings.location).await?;
         let closing = store.clone();
-        // Held until the service stops. The operating system lets go of it even if the service is killed.
+        // Held until the service stops. The operating system lets go of it even if the service is
+        // killed.
         let _lock = lock(&settings.location)?;
         let mut service = Service::new(store, settings.limits).await?;
         service.spans.clone_from(&spans);
@@ -109,7 +111,8 @@ pub fn serve(
                 tokio::time::sleep(SHUTDOWN_TIMEOUT).await;
             } => {}
         }
-        // No request may be answered any more, and what waits to be stored has been or never will be.
+        // No request may be answered any more, and what waits to be stored has been or never will
+        // be.
         let _ = tokio::time::timeout(SHUTDOWN_TIMEOUT, closing.close()).await;
         Ok(())
     });
@@ -133,7 +136,8 @@ fn lock(location: &Location) -> Result<Option<File>, Error> {
     }
 }
 
-/// Refuses an address that others can reach, unless what they say is encrypted and tokens tell who they are.
+/// Refuses an address that others can reach, unless what they say is encrypted and tokens tell who
+/// they are.
 async fn check_protection(settings: &Settings, service: &Service) -> Result<(), Error> {
     // A proxy lets the whole world in, wherever it finds the service.
     if settings.listen.ip().is_loopback() && settings.protection != Protection::Proxy {

@@ -1,4 +1,5 @@
-//! What all requests share: the days, the keys of requests that are being carried out, and the settings.
+//! What all requests share: the days, the keys of requests that are being carried out, and the
+//! settings.
 
 use std::sync::Arc;
 
@@ -52,7 +53,8 @@ pub(crate) struct Service {
     pub(crate) renewals: Arc<Renewals>,
 }
 
-/// Turns for computations, of each kind as many as there are cores: more at once would only make all of them late.
+/// Turns for computations, of each kind as many as there are cores: more at once would only make
+/// all of them late.
 #[derive(Debug)]
 pub(crate) struct AllTurns {
     /// For outlooks and what-ifs, which take long.
@@ -61,7 +63,8 @@ pub(crate) struct AllTurns {
     pub(crate) readings: Turns,
     /// For decisions.
     pub(crate) decisions: Turns,
-    /// For the first decision of a policy on a day, which searches for prices, so that later ones do not wait for it.
+    /// For the first decision of a policy on a day, which searches for prices, so that later ones
+    /// do not wait for it.
     pub(crate) first_decisions: Turns,
     /// For the policy that answers when others are late, so that it never waits for them.
     pub(crate) quick_decisions: Turns,
@@ -125,7 +128,8 @@ impl Service {
             let rule = format!("Idempotency-Key must have 1 to {LONGEST_KEY} characters");
             return Err(Error::BadRequest { rule });
         }
-        // Keys are separate for each token. The length keeps a name from being read as a part of a key.
+        // Keys are separate for each token. The length keeps a name from being read as a part of a
+        // key.
         let own = format!("{}:{actor}:{key}", actor.len());
         let (busy, may_be_known) = self.keys.take(&own)?;
         let request = sum(path, body);

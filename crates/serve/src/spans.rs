@@ -1,8 +1,10 @@
-//! Spans of requests for OpenTelemetry: what was asked, what came of it and how long it took, sent to a collector.
+//! Spans of requests for OpenTelemetry: what was asked, what came of it and how long it took, sent
+//! to a collector.
 //!
-//! A span says the method, the path as it is described, and the status. Of what a client wrote it has the number of the
-//! trace that the request belongs to (`traceparent`, W3C) and nothing else: no ids, no tokens, no bodies. A thread of the
-//! library sends spans in batches, so a collector that has gone holds up no request; spans that are not taken are dropped.
+//! A span says the method, the path as it is described, and the status. Of what a client wrote it
+//! has the number of the trace that the request belongs to (`traceparent`, W3C) and nothing else:
+//! no ids, no tokens, no bodies. A thread of the library sends spans in batches, so a collector
+//! that has gone holds up no request; spans that are not taken are dropped.
 
 use std::env;
 use std::future::{Future, ready};
@@ -49,11 +51,13 @@ pub(crate) struct Spans {
 pub(crate) struct RequestSpan(Span);
 
 impl Spans {
-    /// Spans that are sent to the collector at an address such as `http://127.0.0.1:4318`. What the environment says of
-    /// headers, of the name of the service and of sampling holds (`OTEL_EXPORTER_OTLP_HEADERS` and so on).
+    /// Spans that are sent to the collector at an address such as `http://127.0.0.1:4318`. What the
+    /// environment says of headers, of the name of the service and of sampling holds
+    /// (`OTEL_EXPORTER_OTLP_HEADERS` and so on).
     ///
     /// # Errors
-    /// Returns [`Error::BadCollector`] if the address is none of HTTP, or if the environment asks for what is not there.
+    /// Returns [`Error::BadCollector`] if the address is none of HTTP, or if the environment asks
+    /// for what is not there.
     pub(crate) fn to(collector: &str) -> Result<Self, Error> {
         let bad = |rule: String| Error::BadCollector { address: collector.to_owned(), rule };
         let address = collector.trim_end_matches('/');
@@ -75,8 +79,8 @@ impl Spans {
         Ok(Self { provider, tracer, callers: TraceContextPropagator::new() })
     }
 
-    /// Begins the span of a request, within the trace that its caller names. `path` is the path as it is described, and
-    /// `None` if there is none such.
+    /// Begins the span of a request, within the trace that its caller names. `path` is the path as
+    /// it is described, and `None` if there is none such.
     pub(crate) fn begin(
         &self,
         method: &str,
@@ -131,8 +135,8 @@ fn described() -> Resource {
     }
 }
 
-/// The trace that a request belongs to, from its headers. `tracestate` beside it may be long, is not sent on, and
-/// stays out.
+/// The trace that a request belongs to, from its headers. `tracestate` beside it may be long, is
+/// not sent on, and stays out.
 struct Caller<'a>(&'a HeaderMap);
 
 impl Extractor for Caller<'_> {
@@ -146,8 +150,8 @@ impl Extractor for Caller<'_> {
     }
 }
 
-/// Sends batches to the collector, on the thread of the library that makes them. Says once when they are not taken, and
-/// once when they are again.
+/// Sends batches to the collector, on the thread of the library that makes them. Says once when
+/// they are not taken, and once when they are again.
 #[derive(Debug)]
 struct Collector {
     agent: Agent,

@@ -1,5 +1,6 @@
-//! Turns for computations that take long. A few run at once, and those that wait come on fairly: first the token with the fewest
-//! that run, and of equal ones the request that came first. So a token that asks for much waits for itself, and not others for it.
+//! Turns for computations that take long. A few run at once, and those that wait come on fairly:
+//! first the token with the fewest that run, and of equal ones the request that came first. So a
+//! token that asks for much waits for itself, and not others for it.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -49,8 +50,8 @@ impl Turns {
         self.state().waiting.iter().any(|waiting| !waiting.turn.is_closed())
     }
 
-    /// Runs work on a blocking thread when it is the token's turn. The work is asked to stop when the caller drops this future,
-    /// because the client has gone or the request has timed out.
+    /// Runs work on a blocking thread when it is the token's turn. The work is asked to stop when
+    /// the caller drops this future, because the client has gone or the request has timed out.
     pub(crate) async fn work<T: Send + 'static>(
         &self,
         actor: &str,
@@ -71,8 +72,8 @@ impl Turns {
         outcome
     }
 
-    /// Runs a future that computes for long on a blocking thread when it is the token's turn, so that other requests go on. It ends
-    /// when the caller drops this future.
+    /// Runs a future that computes for long on a blocking thread when it is the token's turn, so
+    /// that other requests go on. It ends when the caller drops this future.
     pub(crate) async fn run<T: Send + 'static>(
         &self,
         actor: &str,
@@ -188,7 +189,8 @@ mod tests {
     }
 
     impl Request {
-        /// The number of things that it may do next: ask; take the turn if it was woken, or go away; end.
+        /// The number of things that it may do next: ask; take the turn if it was woken, or go
+        /// away; end.
         fn ways_on(&self) -> usize {
             match self {
                 Self::Waits(_, woken) => 1 + usize::from(woken.0.load(Ordering::Relaxed)),

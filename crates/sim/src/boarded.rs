@@ -1,11 +1,12 @@
-//! Which demand period the passengers of a played day come from, for those who account for it by period.
+//! Which demand period the passengers of a played day come from, for those who account for it by
+//! period.
 
 use vertifleet_core::{Matrix, Scenario, Time};
 
 use crate::TraceRow;
 
-/// Follows the flights of a day in the order of their decisions. On days whose passengers wait into the next period, a flight
-/// takes those who have waited first.
+/// Follows the flights of a day in the order of their decisions. On days whose passengers wait into
+/// the next period, a flight takes those who have waited first.
 #[derive(Debug, Clone)]
 pub struct Boarded<'a> {
     day: &'a Scenario,
@@ -18,8 +19,8 @@ impl<'a> Boarded<'a> {
         Self { day, left: day.demand.clone() }
     }
 
-    /// Takes the passengers of the next decision, and returns how many of them wanted to fly in which period: those who have
-    /// waited since the period before, and those of its own.
+    /// Takes the passengers of the next decision, and returns how many of them wanted to fly in
+    /// which period: those who have waited since the period before, and those of its own.
     pub fn board(&mut self, row: &TraceRow) -> [(usize, u16); 2] {
         let (period, pair) = (self.day.period_at(row.time), (row.from, row.to));
         let before = self.waiting_in(row.time);
@@ -35,7 +36,8 @@ impl<'a> Boarded<'a> {
         [(before.unwrap_or(period), waited), (period, row.passengers - waited)]
     }
 
-    /// Passengers who want to fly at a time and have not been carried by the flights so far, of all periods that count then.
+    /// Passengers who want to fly at a time and have not been carried by the flights so far, of all
+    /// periods that count then.
     pub fn waiting(&self, time: Time) -> impl Iterator<Item = &Matrix<u32>> {
         let periods = self.waiting_in(time).into_iter().chain([self.day.period_at(time)]);
         periods.map(|period| &self.left[period])

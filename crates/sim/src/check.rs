@@ -1,8 +1,10 @@
-//! The schedule checker: an independent report on a complete schedule, which names every broken rule.
+//! The schedule checker: an independent report on a complete schedule, which names every broken
+//! rule.
 //!
-//! The checker is written from the rules alone (paper §III, Eq. 2-16). It shares no code with the simulator, not even
-//! the rounding of durations, so that a mistake in one of the two shows as a disagreement. Each row is judged against
-//! the *stated* row before it, so that one mistake gives one finding and not a hundred.
+//! The checker is written from the rules alone (paper §III, Eq. 2-16). It shares no code with the
+//! simulator, not even the rounding of durations, so that a mistake in one of the two shows as a
+//! disagreement. Each row is judged against the *stated* row before it, so that one mistake gives
+//! one finding and not a hundred.
 //!
 //! Each file checks one family of rules; [`Rule`] lists them all.
 
@@ -27,7 +29,8 @@ use expected::Expected;
 pub use report::{Finding, Report, Totals};
 pub use rule::Rule;
 
-/// Judges a complete schedule of a day. It accepts any trace, even one of another scenario, and never panics.
+/// Judges a complete schedule of a day. It accepts any trace, even one of another scenario, and
+/// never panics.
 pub fn check(scenario: &Scenario, trace: &Trace) -> Report {
     let mut findings = report::Findings::default();
     order::check(scenario, trace, &mut findings);

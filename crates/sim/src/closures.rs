@@ -1,4 +1,5 @@
-//! The routes that are closed at the moment, as the day goes on, and those that are known to close later.
+//! The routes that are closed at the moment, as the day goes on, and those that are known to close
+//! later.
 
 use std::sync::Arc;
 
@@ -18,10 +19,11 @@ pub(crate) struct Closures {
     no_surprises: bool,
     /// How often an unknown closure has begun or ended.
     surprises: usize,
-    /// Number of unknown closures in force on each route, `[from][to]` row by row; closures may overlap.
+    /// Number of unknown closures in force on each route, `[from][to]` row by row; closures may
+    /// overlap.
     in_force: Vec<u16>,
-    /// By vertiport, the destinations that are closed now because of unknown closures, and in `scheduled` those closed
-    /// by known ones.
+    /// By vertiport, the destinations that are closed now because of unknown closures, and in
+    /// `scheduled` those closed by known ones.
     unexpected: Vec<VertiportSet>,
     scheduled: Vec<VertiportSet>,
 }
@@ -31,8 +33,8 @@ clone_into_room!(Closures { day, next, no_surprises, surprises, in_force, unexpe
 /// The closures of a day as changes in order of time.
 #[derive(Debug)]
 struct DayClosures {
-    /// Every beginning and end of an unknown closure, and every closing and opening of a route by known ones, in order
-    /// of time.
+    /// Every beginning and end of an unknown closure, and every closing and opening of a route by
+    /// known ones, in order of time.
     changes: Vec<Change>,
     known: ClosedTimes,
 }
@@ -67,8 +69,8 @@ impl DayClosures {
                 }
             }
         }
-        // Beginnings come first, so that a closure without duration closes before it opens and counts never fall below
-        // 0.
+        // Beginnings come first, so that a closure without duration closes before it opens and
+        // counts never fall below 0.
         changes.sort_by_key(|change| (change.time, !change.closes));
         Self { changes, known }
     }
@@ -80,14 +82,16 @@ fn pairs(size: usize) -> impl Iterator<Item = (VertiportIx, VertiportIx)> {
 }
 
 impl Closures {
-    /// The closures of a day before it begins. On a day without closures this takes almost no memory.
+    /// The closures of a day before it begins. On a day without closures this takes almost no
+    /// memory.
     pub(crate) fn of(scenario: &Scenario) -> Self {
         let day = DayClosures::of(&scenario.disturbances.closures, scenario.vertiports.len());
         let size = if day.changes.is_empty() { 0 } else { scenario.vertiports.len() };
         Self::before(day, size)
     }
 
-    /// The closures before any has begun; `size` is the number of vertiports, or 0 if there are no closures.
+    /// The closures before any has begun; `size` is the number of vertiports, or 0 if there are no
+    /// closures.
     fn before(day: DayClosures, size: usize) -> Self {
         Self {
             day: Arc::new(day),
@@ -131,7 +135,8 @@ impl Closures {
         }
     }
 
-    /// Takes the report that a route is closed or open from now on, for as long as nothing else is reported.
+    /// Takes the report that a route is closed or open from now on, for as long as nothing else is
+    /// reported.
     pub(crate) fn report(
         &mut self,
         from: VertiportIx,
@@ -151,8 +156,8 @@ impl Closures {
         }
     }
 
-    /// Replaces the known closures. On the routes `told` nothing but these closes them any more. The report counts as a
-    /// change of routes; `now` is the time of the day.
+    /// Replaces the known closures. On the routes `told` nothing but these closes them any more.
+    /// The report counts as a change of routes; `now` is the time of the day.
     pub(crate) fn announce(
         &mut self,
         known: &[Closure],

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::Ledger;
 
-/// The numbers of a finished day. `simulate --json`, the rows of `days.csv` and the columns in Python use the same
-/// names.
+/// The numbers of a finished day. `simulate --json`, the rows of `days.csv` and the columns in
+/// Python use the same names.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct DayTotals {
     /// Revenue less all costs (Eq. 5), dollars.

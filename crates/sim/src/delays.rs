@@ -1,9 +1,10 @@
 //! What is known of take-off delays at present, by which imagined days go on.
 //!
-//! What holds one flight up at a vertiport holds up others too, so a flight is expected to be as late as the latest one that
-//! left the same vertiport in the same quarter of an hour. Nothing is expected of the quarters after that: on 160 days of
-//! `disrupted`, days on which every later flight was expected to be as late as the mean earned no more, whether or not the
-//! prices expected it too.
+//! What holds one flight up at a vertiport holds up others too, so a flight is expected to be as
+//! late as the latest one that left the same vertiport in the same quarter of an hour. Nothing is
+//! expected of the quarters after that: on 160 days of `disrupted`, days on which every later
+//! flight was expected to be as late as the mean earned no more, whether or not the prices expected
+//! it too.
 
 use vertifleet_core::{Scenario, Time, VertiportIx};
 
@@ -41,8 +42,8 @@ impl Delays {
         }
     }
 
-    /// Takes note of how late a flight is, on a day with so many vertiports. It may be known before it leaves, and
-    /// corrected when it does.
+    /// Takes note of how late a flight is, on a day with so many vertiports. It may be known before
+    /// it leaves, and corrected when it does.
     pub(crate) fn note(
         &mut self,
         decided: Time,

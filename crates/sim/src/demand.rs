@@ -6,17 +6,19 @@ use vertifleet_core::{Matrix, Scenario, VertiportIx};
 
 use crate::room::clone_into_room;
 
-/// The rest of the day's demand as far as it is known: actual demand in periods that have begun, and the forecast in
-/// later ones. A flight takes its passengers at the moment it is decided.
+/// The rest of the day's demand as far as it is known: actual demand in periods that have begun,
+/// and the forecast in later ones. A flight takes its passengers at the moment it is decided.
 ///
-/// On days whose passengers wait, those who are left when a period ends are counted in the next period from then on,
-/// until they leave ([`Demand::leave`]). Every passenger is counted in one period at every moment.
+/// On days whose passengers wait, those who are left when a period ends are counted in the next
+/// period from then on, until they leave ([`Demand::leave`]). Every passenger is counted in one
+/// period at every moment.
 #[derive(Debug)]
 pub(crate) struct Demand {
     vertiports: usize,
     /// Those who can still be carried in a period, by period, then from, then to.
     left: Vec<u32>,
-    /// How many of them have waited since the period before, by from, then to. Empty if passengers of the day never wait.
+    /// How many of them have waited since the period before, by from, then to. Empty if passengers
+    /// of the day never wait.
     waiting: Vec<u32>,
     /// The period in which they wait now, if they have not left.
     waiting_in: Option<usize>,
@@ -49,7 +51,8 @@ impl Demand {
         self.left[period * pairs..][..pairs].copy_from_slice(actual.cells());
     }
 
-    /// Lets those who are left of the period before a period wait in it, if passengers of the day wait.
+    /// Lets those who are left of the period before a period wait in it, if passengers of the day
+    /// wait.
     pub(crate) fn wait_in(&mut self, period: usize) {
         if self.waiting.is_empty() {
             return;
@@ -61,8 +64,8 @@ impl Demand {
         self.waiting_in = Some(period);
     }
 
-    /// Lets those who have waited leave, and returns whether anybody could have waited. They are counted in their own
-    /// period again, whose passengers cannot be carried any more.
+    /// Lets those who have waited leave, and returns whether anybody could have waited. They are
+    /// counted in their own period again, whose passengers cannot be carried any more.
     pub(crate) fn leave(&mut self) -> bool {
         let Some(period) = self.waiting_in.take() else { return false };
         for (waiting, before, now) in self.pairs_of(period) {
@@ -72,7 +75,8 @@ impl Demand {
         true
     }
 
-    /// The numbers of each pair: who waits, and who is counted in the period before a period and in that period.
+    /// The numbers of each pair: who waits, and who is counted in the period before a period and in
+    /// that period.
     fn pairs_of(&mut self, period: usize) -> impl Iterator<Item = (&mut u32, &mut u32, &mut u32)> {
         let pairs = self.waiting.len();
         let (before, now) = self.left[(period - 1) * pairs..].split_at_mut(pairs);
@@ -92,7 +96,8 @@ impl Demand {
         (period * self.vertiports + from.at()) * self.vertiports + to.at()
     }
 
-    /// Passengers who can still be carried from one vertiport to another in a period, those who wait among them.
+    /// Passengers who can still be carried from one vertiport to another in a period, those who
+    /// wait among them.
     #[inline]
     pub(crate) fn left(&self, period: usize, from: VertiportIx, to: VertiportIx) -> u32 {
         self.left[self.at(period, from, to)]
@@ -105,7 +110,8 @@ impl Demand {
         &self.left[period * pairs..][..pairs]
     }
 
-    /// Takes as many passengers as want to fly and fit in `seats`, first those who have waited, and returns their number.
+    /// Takes as many passengers as want to fly and fit in `seats`, first those who have waited, and
+    /// returns their number.
     #[inline]
     pub(crate) fn board(
         &mut self,
@@ -130,8 +136,8 @@ impl Demand {
     }
 }
 
-/// What reports of a live day ask for and change: passengers by the period in which they wanted to fly, wherever they
-/// are counted now.
+/// What reports of a live day ask for and change: passengers by the period in which they wanted to
+/// fly, wherever they are counted now.
 impl Demand {
     /// How many passengers of a pair have waited since the period before.
     pub(crate) fn waiting(&self, from: VertiportIx, to: VertiportIx) -> u32 {
@@ -178,7 +184,8 @@ impl Demand {
         self.left.len()
     }
 
-    /// Counts the passengers of the whole day anew: those who still want to fly, and those who have.
+    /// Counts the passengers of the whole day anew: those who still want to fly, and those who
+    /// have.
     pub(crate) fn set_total(&mut self, boarded: &[u32]) {
         self.total = self.left.iter().chain(boarded).map(|&passengers| u64::from(passengers)).sum();
     }

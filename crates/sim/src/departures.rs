@@ -1,4 +1,5 @@
-//! The flights that an aircraft may take from a vertiport: what is the same for all destinations is looked up once.
+//! The flights that an aircraft may take from a vertiport: what is the same for all destinations is
+//! looked up once.
 
 use std::ops::Range;
 
@@ -9,7 +10,8 @@ use crate::{Leg, Simulation, VertiportSet};
 /// Later than any day.
 const FOREVER: Time = Time::from_seconds(u32::MAX);
 
-/// The flights of one type from a vertiport that are decided at one time. It is borrowed from the day's tables.
+/// The flights of one type from a vertiport that are decided at one time. It is borrowed from the
+/// day's tables.
 #[derive(Debug, Clone, Copy)]
 pub struct Departures<'a> {
     time: Time,
@@ -19,7 +21,8 @@ pub struct Departures<'a> {
     fares_usd: &'a [f64],
     passenger_costs_usd: &'a [f64],
     flight_costs_usd: &'a [f64],
-    /// The starts of the present demand period and of all later ones, and the price of energy in each.
+    /// The starts of the present demand period and of all later ones, and the price of energy in
+    /// each.
     starts: &'a [Time],
     energy_prices_usd: &'a [f64],
 }
@@ -47,8 +50,8 @@ impl<'a> Departures<'a> {
         }
     }
 
-    /// Profit in dollars of a flight that is on time if `waiting` passengers want to fly: fares less passenger cost, less
-    /// energy at the price of its arrival, less the flight cost.
+    /// Profit in dollars of a flight that is on time if `waiting` passengers want to fly: fares
+    /// less passenger cost, less energy at the price of its arrival, less the flight cost.
     #[inline]
     pub fn profit_usd(&self, to: VertiportIx, waiting: u32) -> f64 {
         let leg = &self.legs[to.at()];
@@ -63,8 +66,8 @@ impl<'a> Departures<'a> {
             - self.flight_costs_usd[to.at()]
     }
 
-    /// Times of decision around this one, in the same demand period, at which [`profit_usd`](Self::profit_usd) is the same for
-    /// each of these destinations.
+    /// Times of decision around this one, in the same demand period, at which
+    /// [`profit_usd`](Self::profit_usd) is the same for each of these destinations.
     pub fn steady(&self, destinations: &VertiportSet) -> Range<Time> {
         let begun = self.starts.partition_point(|&start| start <= self.time);
         let since = self.starts[begun.saturating_sub(1)];

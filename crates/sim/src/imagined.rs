@@ -1,17 +1,19 @@
-//! The rest of a day as a policy may imagine it at a decision, to play out what a choice would lead to.
+//! The rest of a day as a policy may imagine it at a decision, to play out what a choice would lead
+//! to.
 
 use vertifleet_core::VertiportIx;
 
 use crate::{DayTotals, Decision, Ledger, Refusal, Simulation, TraceRow, View};
 
-/// A day that continues from a decision as expected: demand comes as forecast, aircraft are ready when they are expected
-/// to be, and known closures begin and end at their times. A flight is as late as the latest one that left
-/// the same vertiport in the same quarter of an hour, and on time if none has. Unknown closures no longer begin, and those
-/// in force stay in force. An imagined day is made by [`View::imagined`]. The day that it was made
-/// from does not change, and the imagined day reveals nothing that is not known yet.
+/// A day that continues from a decision as expected: demand comes as forecast, aircraft are ready
+/// when they are expected to be, and known closures begin and end at their times. A flight is as
+/// late as the latest one that left the same vertiport in the same quarter of an hour, and on time
+/// if none has. Unknown closures no longer begin, and those in force stay in force. An imagined day
+/// is made by [`View::imagined`]. The day that it was made from does not change, and the imagined
+/// day reveals nothing that is not known yet.
 ///
-/// [`Clone::clone_from`] copies one imagined day into the memory of another, and allocates none if both are of the same
-/// day.
+/// [`Clone::clone_from`] copies one imagined day into the memory of another, and allocates none if
+/// both are of the same day.
 #[derive(Debug)]
 pub struct Imagined(Simulation);
 

@@ -45,8 +45,8 @@ impl Ledger {
         }
     }
 
-    /// z (Eq. 5): revenue less passenger cost and energy cost, and less the cost of flights, aircraft, stands and
-    /// chargers beside them; dollars.
+    /// z (Eq. 5): revenue less passenger cost and energy cost, and less the cost of flights,
+    /// aircraft, stands and chargers beside them; dollars.
     #[inline]
     pub fn profit_usd(&self) -> f64 {
         self.revenue_usd

@@ -1,4 +1,5 @@
-//! The time, energy and charging of a flight between two vertiports (Eq. 7, 9, 13-15), computed once a day.
+//! The time, energy and charging of a flight between two vertiports (Eq. 7, 9, 13-15), computed
+//! once a day.
 
 use vertifleet_core::{AircraftType, Operations, Scenario, TypeIx, VertiportIx};
 
@@ -7,10 +8,11 @@ use crate::VertiportSet;
 /// The flight of one aircraft type from one vertiport to another.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leg {
-    /// Energy of the flight, kWh: e d_ij and the battery's own losses. It is charged again after landing (Eq. 13, 15).
+    /// Energy of the flight, kWh: e d_ij and the battery's own losses. It is charged again after
+    /// landing (Eq. 13, 15).
     pub energy_kwh: f64,
-    /// g_ij: mean power drawn from the battery over the flight, kW (the interpretation under which Eq. 13 and 17
-    /// agree).
+    /// g_ij: mean power drawn from the battery over the flight, kW (the interpretation under which
+    /// Eq. 13 and 17 agree).
     pub mean_power_kw: f64,
     /// Seconds from the decision to arrival: take-off, cruise, landing (Eq. 7).
     pub flight_s: u32,
@@ -40,8 +42,8 @@ impl Leg {
     }
 }
 
-/// Rounds to the nearest second, halves up. A leg that no battery lasts for may take absurdly long. It cannot be flown,
-/// and the bound keeps the sums of its parts within `u32`.
+/// Rounds to the nearest second, halves up. A leg that no battery lasts for may take absurdly long.
+/// It cannot be flown, and the bound keeps the sums of its parts within `u32`.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -57,7 +59,8 @@ pub struct Legs {
     vertiports: usize,
     /// By type, then from, then to.
     by_pair: Vec<Leg>,
-    /// By type, then from: the other vertiports that a corridor leads to and a full battery reaches.
+    /// By type, then from: the other vertiports that a corridor leads to and a full battery
+    /// reaches.
     within_range: Vec<VertiportSet>,
 }
 

@@ -1,10 +1,12 @@
 //! The simulator: events, stands, feasible decisions, the ledger, and the trace of a day.
 //!
-//! Every day is played by two calls: [`Simulation::next_decision`] returns the aircraft that must decide now, and
-//! [`Simulation::apply`] carries its decision out or refuses it. A policy sees the day through a [`View`]. The
-//! [checker](check) judges finished schedules from the rules alone and shares no code with the simulator.
+//! Every day is played by two calls: [`Simulation::next_decision`] returns the aircraft that must
+//! decide now, and [`Simulation::apply`] carries its decision out or refuses it. A policy sees the
+//! day through a [`View`]. The [checker](check) judges finished schedules from the rules alone and
+//! shares no code with the simulator.
 //!
-//! This crate builds on `vertifleet-core` and has no policies. In this example every aircraft holds all day:
+//! This crate builds on `vertifleet-core` and has no policies. In this example every aircraft holds
+//! all day:
 //!
 //! ```
 //! use std::sync::Arc;

@@ -1,9 +1,10 @@
 //! A day that happens. The simulator takes what is reported, instead of what it expects.
 //!
-//! What has not been reported yet is expected as the simulator would have it, by the same code: an aircraft that was
-//! sent off departs at once, lands after the flight's time and is ready when it is charged. If reports say just that,
-//! the live day is the simulated day, to the cent. Reports are taken one after the other ([`LiveDay::take`]), so a day
-//! is a function of its scenario and its reports.
+//! What has not been reported yet is expected as the simulator would have it, by the same code: an
+//! aircraft that was sent off departs at once, lands after the flight's time and is ready when it
+//! is charged. If reports say just that, the live day is the simulated day, to the cent. Reports
+//! are taken one after the other ([`LiveDay::take`]), so a day is a function of its scenario and
+//! its reports.
 
 mod report;
 mod reporter;
@@ -26,15 +27,16 @@ const LATE_S: u32 = 300;
 /// A day that happens.
 #[derive(Debug, Clone)]
 pub struct LiveDay {
-    /// Everything that is known. Its queue holds the time at which each aircraft is expected to be ready, which may lie
-    /// before now if the aircraft has not decided.
+    /// Everything that is known. Its queue holds the time at which each aircraft is expected to be
+    /// ready, which may lie before now if the aircraft has not decided.
     known: Simulation,
     /// The latest time of a report, or the start of operations.
     now: Time,
     aircraft: Vec<LiveAircraft>,
     /// Every decision, in order; those that were undone are marked.
     decisions: Vec<LiveDecision>,
-    /// Passengers who have been taken on board, in the layout of the demand, by the period in which they wanted to fly.
+    /// Passengers who have been taken on board, in the layout of the demand, by the period in which
+    /// they wanted to fly.
     boarded: Vec<u32>,
     /// Closures whose end is known, those of the scenario among them, each one way.
     closures: Vec<Closure>,
@@ -110,7 +112,8 @@ impl LiveDecision {
     }
 }
 
-/// An aircraft before a decision: when it was charged, when it had landed, and whether it waited beside the chargers.
+/// An aircraft before a decision: when it was charged, when it had landed, and whether it waited
+/// beside the chargers.
 #[derive(Debug, Clone, Copy)]
 struct Before {
     charged: Time,
@@ -129,7 +132,8 @@ pub struct AircraftNow {
     pub place: VertiportIx,
     /// When it landed there or is expected to land.
     pub arrival: Time,
-    /// When it is expected to be ready; after the end of operations if it is out of service until further notice.
+    /// When it is expected to be ready; after the end of operations if it is out of service until
+    /// further notice.
     pub ready: Time,
     /// Whether it is out of service.
     pub is_out: bool,
@@ -147,8 +151,9 @@ fn one_way(closure: &Closure) -> impl Iterator<Item = Closure> + use<> {
 }
 
 impl LiveDay {
-    /// A day before its first report. Of the scenario it takes what is expected: the forecast where the demand differs
-    /// from it, and closures that are known; what else disturbs the day has to be reported.
+    /// A day before its first report. Of the scenario it takes what is expected: the forecast where
+    /// the demand differs from it, and closures that are known; what else disturbs the day has to
+    /// be reported.
     pub fn new(scenario: Arc<Scenario>) -> Self {
         let scenario =
             if scenario.disturbances.is_none() { scenario } else { Arc::new(scenario.expected()) };
@@ -223,7 +228,8 @@ impl LiveDay {
     /// The decision of an aircraft at a time, or now if that is later.
     ///
     /// # Errors
-    /// Returns an [`ReportError`] if the aircraft is not ready then, or if no decisions are taken any more.
+    /// Returns an [`ReportError`] if the aircraft is not ready then, or if no decisions are taken
+    /// any more.
     pub fn decision(&self, aircraft: AircraftIx, time: Time) -> Result<Decision, ReportError> {
         let id =
             self.scenario().aircraft.get(aircraft.at()).ok_or(ReportError::Unknown("aircraft"))?;
@@ -252,8 +258,8 @@ impl LiveDay {
         Ok(Decision { time, aircraft, at: self.known.place[aircraft.at()], index })
     }
 
-    /// The day as a policy sees it at a [decision](Self::decision). It is written into `room`, which keeps its memory
-    /// from one decision to the next.
+    /// The day as a policy sees it at a [decision](Self::decision). It is written into `room`,
+    /// which keeps its memory from one decision to the next.
     pub fn view_at<'room>(
         &mut self,
         decision: &Decision,
@@ -276,8 +282,8 @@ impl LiveDay {
         Imagined::of_expected(day)
     }
 
-    /// Lets a copy of what is known go on from a time: nothing that has not happened yet happens earlier. If an aircraft
-    /// decides then, it is the first.
+    /// Lets a copy of what is known go on from a time: nothing that has not happened yet happens
+    /// earlier. If an aircraft decides then, it is the first.
     fn expect_from(&self, day: &mut Simulation, time: Time, first: Option<AircraftIx>) {
         day.advance_to(time);
         for aircraft in AircraftIx::all(self.aircraft.len()) {
@@ -322,7 +328,8 @@ impl LiveDay {
         }
     }
 
-    /// Adds the account and the demand of the whole day up, if a report has changed what was in them.
+    /// Adds the account and the demand of the whole day up, if a report has changed what was in
+    /// them.
     fn add_up(&mut self) {
         if !std::mem::take(&mut self.is_stale) {
             return;
@@ -357,7 +364,8 @@ impl LiveDay {
         self.known.totals()
     }
 
-    /// The day as it is known, with the account so far; the time of its view is the latest report's.
+    /// The day as it is known, with the account so far; the time of its view is the latest
+    /// report's.
     pub fn view(&mut self) -> View<'_> {
         self.add_up();
         self.known.view()
@@ -388,14 +396,15 @@ impl LiveDay {
         self.closures.iter().filter(in_force).map(|closure| closure.end).max()
     }
 
-    /// Passengers of a period who have been taken on board, `[from][to]` row by row. Those who waited into the next
-    /// period count in their own.
+    /// Passengers of a period who have been taken on board, `[from][to]` row by row. Those who
+    /// waited into the next period count in their own.
     pub fn boarded_in(&self, period: usize) -> &[u32] {
         let pairs = self.scenario().vertiports.len().pow(2);
         &self.boarded[period * pairs..][..pairs]
     }
 
-    /// What people should look at now: vertiports that have more aircraft than stands, and aircraft that are overdue.
+    /// What people should look at now: vertiports that have more aircraft than stands, and aircraft
+    /// that are overdue.
     pub fn notices(&self) -> impl Iterator<Item = Notice> + '_ {
         let vertiports = VertiportIx::all(self.scenario().vertiports.len());
         let crowded = vertiports.filter_map(|vertiport| self.more_than_stands(vertiport));

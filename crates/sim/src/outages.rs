@@ -4,7 +4,8 @@ use vertifleet_core::{AircraftIx, Scenario, Time};
 
 use crate::room::clone_into_room;
 
-/// The landing time of an aircraft that has held since it landed, or has not landed yet. No outage lasts that long.
+/// The landing time of an aircraft that has held since it landed, or has not landed yet. No outage
+/// lasts that long.
 const NONE: Time = Time::from_seconds(u32::MAX);
 
 /// The outages of a day by aircraft, and the landings that they may affect.
@@ -12,8 +13,8 @@ const NONE: Time = Time::from_seconds(u32::MAX);
 pub(crate) struct Outages {
     /// Aircraft, first instant and end of each outage, in order of aircraft.
     all: Vec<(AircraftIx, Time, Time)>,
-    /// Each aircraft's latest landing, whether decided or done, with the time at which it is charged. Empty on a day
-    /// without outages.
+    /// Each aircraft's latest landing, whether decided or done, with the time at which it is
+    /// charged. Empty on a day without outages.
     landings: Vec<(Time, Time)>,
 }
 
@@ -43,7 +44,8 @@ impl Outages {
         own.map(|&(_, start, end)| (start, end))
     }
 
-    /// Enters a landing after which the aircraft is charged at `charged`, and returns the time at which it is ready.
+    /// Enters a landing after which the aircraft is charged at `charged`, and returns the time at
+    /// which it is ready.
     pub(crate) fn land(&mut self, aircraft: AircraftIx, arrival: Time, charged: Time) -> Time {
         self.landings[aircraft.at()] = (arrival, charged);
         self.ready(aircraft, NONE)
@@ -57,7 +59,8 @@ impl Outages {
         }
     }
 
-    /// The time at which an aircraft will be ready, considering the outages that have begun by `now`.
+    /// The time at which an aircraft will be ready, considering the outages that have begun by
+    /// `now`.
     pub(crate) fn ready(&self, aircraft: AircraftIx, now: Time) -> Time {
         let (arrival, charged) = self.landings[aircraft.at()];
         let known = self

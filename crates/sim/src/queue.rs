@@ -1,7 +1,8 @@
-//! The order of decisions: a tournament over all aircraft by (time, aircraft index), the total order of events.
+//! The order of decisions: a tournament over all aircraft by (time, aircraft index), the total
+//! order of events.
 //!
-//! Each inner node holds the earlier of its two children, so the winner stands at the root, and a new time for one
-//! aircraft costs one branch-free walk to the top.
+//! Each inner node holds the earlier of its two children, so the winner stands at the root, and a
+//! new time for one aircraft costs one branch-free walk to the top.
 
 use vertifleet_core::{AircraftIx, Time};
 
@@ -10,7 +11,8 @@ use crate::room::clone_into_room;
 /// The time at which each aircraft of a fleet will be ready, earliest first.
 #[derive(Debug)]
 pub(crate) struct ReadyQueue {
-    /// The root is at 1, the children of `n` are at `2n` and `2n + 1`, and the aircraft begin at `first_leaf`.
+    /// The root is at 1, the children of `n` are at `2n` and `2n + 1`, and the aircraft begin at
+    /// `first_leaf`.
     nodes: Vec<u64>,
     first_leaf: usize,
 }
@@ -42,7 +44,8 @@ impl ReadyQueue {
         }
     }
 
-    /// The aircraft that is ready first, with its time. Of several, it is the one with the lowest index.
+    /// The aircraft that is ready first, with its time. Of several, it is the one with the lowest
+    /// index.
     #[inline]
     pub(crate) fn earliest(&self) -> (AircraftIx, Time) {
         let winner = self.nodes[1];

@@ -13,7 +13,8 @@ use crate::room::clone_into_room;
 use crate::stands::Stands;
 use crate::{DayTotals, Ledger, Legs, Refusal, TraceRow, VertiportSet, View};
 
-/// An aircraft that is ready for take-off and needs a vertiport to fly to. Its own vertiport means *hold*.
+/// An aircraft that is ready for take-off and needs a vertiport to fly to. Its own vertiport means
+/// *hold*.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Decision {
     /// The time of the decision, which is now.
@@ -29,7 +30,8 @@ pub struct Decision {
 /// Later than any time of a day.
 const NEVER: Time = Time::from_seconds(u32::MAX);
 
-/// A day that is being flown. The same scenario with the same decisions gives the same day, bit for bit.
+/// A day that is being flown. The same scenario with the same decisions gives the same day, bit for
+/// bit.
 #[derive(Debug)]
 pub struct Simulation {
     pub(crate) scenario: Arc<Scenario>,
@@ -46,17 +48,19 @@ pub struct Simulation {
     pub(crate) closures: Closures,
     outages: Outages,
     pub(crate) delays: Delays,
-    /// Whether anything unexpected may still happen. Always false on an imagined day, where unknown closures stay as
-    /// they are and outages are already contained in `queue`.
+    /// Whether anything unexpected may still happen. Always false on an imagined day, where unknown
+    /// closures stay as they are and outages are already contained in `queue`.
     surprises: bool,
-    /// Whether anything may happen without a decision: a surprise, or a known closure, which imagined days have too.
+    /// Whether anything may happen without a decision: a surprise, or a known closure, which
+    /// imagined days have too.
     pub(crate) eventful: bool,
-    /// Time of the latest decision asked for, or the start of operations before the first. Not updated without
-    /// surprises.
+    /// Time of the latest decision asked for, or the start of operations before the first. Not
+    /// updated without surprises.
     now: Time,
     /// Demand period of the latest decision asked for. Time never runs back.
     pub(crate) period: usize,
-    /// When the next period begins, or those leave who have waited since the one before, if that is earlier.
+    /// When the next period begins, or those leave who have waited since the one before, if that is
+    /// earlier.
     pub(crate) next_change: Time,
     pub(crate) potential_usd: f64,
 }
@@ -105,7 +109,8 @@ impl Simulation {
         }
     }
 
-    /// The decision to be taken now, or `None` once no aircraft has one left. Calling it again changes nothing.
+    /// The decision to be taken now, or `None` once no aircraft has one left. Calling it again
+    /// changes nothing.
     #[inline]
     pub fn next_decision(&mut self) -> Option<Decision> {
         let (aircraft, time) = self.queue.earliest();
@@ -132,8 +137,9 @@ impl Simulation {
         }
     }
 
-    /// Goes through the demand periods that begin up to and at `time`. The actual demand of each is known from then on.
-    /// Those who are left of the period before it wait, and leave before the next one begins.
+    /// Goes through the demand periods that begin up to and at `time`. The actual demand of each is
+    /// known from then on. Those who are left of the period before it wait, and leave before the
+    /// next one begins.
     #[cold]
     fn change_demand(&mut self, time: Time) {
         while self.next_change <= time {
@@ -163,7 +169,8 @@ impl Simulation {
         }
     }
 
-    /// Sends the aircraft that decides now to `choice`, where its own vertiport means hold. Returns what came of it.
+    /// Sends the aircraft that decides now to `choice`, where its own vertiport means hold. Returns
+    /// what came of it.
     ///
     /// # Errors
     /// [`Refusal`] names the rule that the choice breaks. Nothing has changed then.
@@ -280,7 +287,8 @@ impl Simulation {
         row
     }
 
-    /// Arrival and ready times of a flight with its delay and outages, given the times without them.
+    /// Arrival and ready times of a flight with its delay and outages, given the times without
+    /// them.
     #[cold]
     fn disturbed(&mut self, decision: &Decision, arrival: Time, ready: Time) -> (Time, Time) {
         let Decision { time, aircraft, at: from, .. } = *decision;
@@ -303,8 +311,8 @@ impl Simulation {
         self.scenario.energy_price_usd[self.period + periods_on]
     }
 
-    /// The vertiports that the deciding aircraft may choose: its own, and every other within range that has a free
-    /// stand and to which the route is not closed.
+    /// The vertiports that the deciding aircraft may choose: its own, and every other within range
+    /// that has a free stand and to which the route is not closed.
     #[inline]
     pub(crate) fn feasible(&self, decision: &Decision) -> VertiportSet {
         let kind = self.scenario.aircraft[decision.aircraft.at()].kind;

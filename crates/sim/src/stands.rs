@@ -1,11 +1,12 @@
 //! Stands: how many aircraft each vertiport holds or has promised a stand to (Eq. 16).
 //!
-//! A stand is taken at take-off *towards* a vertiport and freed at take-off *from* it, so the bound holds at every
-//! instant, and two aircraft can never compete for the last stand.
+//! A stand is taken at take-off *towards* a vertiport and freed at take-off *from* it, so the bound
+//! holds at every instant, and two aircraft can never compete for the last stand.
 //!
-//! A vertiport may have two pools: *chargers*, which flights need, and *stands* to wait on. A hold moves an aircraft
-//! from its charger to a stand if one is free. Everywhere else stands are the only pool, and flights need them. In this
-//! file, *place* means a charger in the former case and a stand in the latter.
+//! A vertiport may have two pools: *chargers*, which flights need, and *stands* to wait on. A hold
+//! moves an aircraft from its charger to a stand if one is free. Everywhere else stands are the
+//! only pool, and flights need them. In this file, *place* means a charger in the former case and a
+//! stand in the latter.
 
 use vertifleet_core::{AircraftIx, Scenario, VertiportIx};
 
@@ -82,8 +83,8 @@ impl Stands {
         &self.limit
     }
 
-    /// Number of aircraft that wait on stands beside chargers, and number of such stands; both 0 where stands are the
-    /// only pool.
+    /// Number of aircraft that wait on stands beside chargers, and number of such stands; both 0
+    /// where stands are the only pool.
     pub(crate) fn parked(&self, vertiport: VertiportIx) -> (u16, u16) {
         let parking = self.parking.as_ref();
         parking.map_or((0, 0), |parking| {
@@ -97,8 +98,8 @@ impl Stands {
         &self.open
     }
 
-    /// Moves an aircraft's place from one vertiport to another. The mask admits only [open](Self::open) ones; a report may
-    /// force the move to any.
+    /// Moves an aircraft's place from one vertiport to another. The mask admits only
+    /// [open](Self::open) ones; a report may force the move to any.
     #[inline]
     pub(crate) fn transfer(&mut self, aircraft: AircraftIx, from: VertiportIx, to: VertiportIx) {
         self.taken[to.at()] += 1;
@@ -111,7 +112,8 @@ impl Stands {
         self.free(from);
     }
 
-    /// Frees a place. A vertiport that holds more aircraft than it has places stays closed until it has one again.
+    /// Frees a place. A vertiport that holds more aircraft than it has places stays closed until it
+    /// has one again.
     #[inline]
     fn free(&mut self, at: VertiportIx) {
         self.taken[at.at()] -= 1;
@@ -120,7 +122,8 @@ impl Stands {
         }
     }
 
-    /// Frees the stand of an aircraft that waits on one beside chargers. Returns `false` if it does not wait on one.
+    /// Frees the stand of an aircraft that waits on one beside chargers. Returns `false` if it does
+    /// not wait on one.
     #[cold]
     fn leave_stand(&mut self, aircraft: AircraftIx, from: VertiportIx) -> bool {
         let Some(parking) = &mut self.parking else { return false };
@@ -160,8 +163,8 @@ impl Stands {
         }
     }
 
-    /// Takes a place at a vertiport, even if there is none free: a report says that the aircraft is there, or was on
-    /// its way. With `waits` it is a stand beside chargers.
+    /// Takes a place at a vertiport, even if there is none free: a report says that the aircraft is
+    /// there, or was on its way. With `waits` it is a stand beside chargers.
     pub(crate) fn take(&mut self, aircraft: AircraftIx, at: VertiportIx, waits: bool) {
         if waits && let Some(parking) = &mut self.parking {
             parking.waits[aircraft.at()] = true;

@@ -1,8 +1,8 @@
 //! The trace: every decision of a day, one CSV row each, in the order in which they were taken.
 //!
-//! A trace is a complete schedule: it can be replayed and judged without the program that made it. Numbers are written
-//! in the fewest digits that read back as the same `f64`, so that sums over a trace that was read are the same bit for
-//! bit.
+//! A trace is a complete schedule: it can be replayed and judged without the program that made it.
+//! Numbers are written in the fewest digits that read back as the same `f64`, so that sums over a
+//! trace that was read are the same bit for bit.
 
 mod error;
 mod read;
@@ -12,8 +12,8 @@ use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 
 pub use error::TraceError;
 
-/// The members of a row, in the order of the file's columns. The last one exists only on days on which flights have a
-/// cost beside their energy.
+/// The members of a row, in the order of the file's columns. The last one exists only on days on
+/// which flights have a cost beside their energy.
 const COLUMNS: [&str; 12] = [
     "time",
     "aircraft",
@@ -34,8 +34,8 @@ fn columns(scenario: &Scenario) -> &'static [&'static str] {
     if scenario.has_flight_costs() { &COLUMNS } else { &COLUMNS[..COLUMNS.len() - 1] }
 }
 
-/// One decision and what came of it. A hold goes from a vertiport to itself, has no passengers and no costs, arrives
-/// when it is decided, and is ready once the hold is over.
+/// One decision and what came of it. A hold goes from a vertiport to itself, has no passengers and
+/// no costs, arrives when it is decided, and is ready once the hold is over.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TraceRow {
     /// The time of the decision.

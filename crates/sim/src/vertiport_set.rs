@@ -1,4 +1,5 @@
-//! A set of vertiports as a few machine words, so that masks cost a handful of instructions and no allocation.
+//! A set of vertiports as a few machine words, so that masks cost a handful of instructions and no
+//! allocation.
 
 use vertifleet_core::VertiportIx;
 

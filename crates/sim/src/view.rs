@@ -12,8 +12,9 @@ pub struct View<'a> {
     simulation: &'a Simulation,
 }
 
-/// Distinguishes a day from every other without revealing anything of it. Two keys are equal if they belong to the same
-/// scenario in memory. While a key lives, no other day can take the scenario's address.
+/// Distinguishes a day from every other without revealing anything of it. Two keys are equal if
+/// they belong to the same scenario in memory. While a key lives, no other day can take the
+/// scenario's address.
 #[derive(Debug, Clone)]
 pub struct DayKey(Arc<Scenario>);
 
@@ -36,14 +37,15 @@ impl<'a> View<'a> {
         self.scenario().vertiports.len()
     }
 
-    /// The mask: hold, and every other vertiport within range that has a free stand and to which the route is not closed.
-    /// Never empty.
+    /// The mask: hold, and every other vertiport within range that has a free stand and to which
+    /// the route is not closed. Never empty.
     #[inline]
     pub fn feasible(&self, decision: &Decision) -> VertiportSet {
         self.simulation.feasible(decision)
     }
 
-    /// The rule that keeps the aircraft of a decision from flying to a vertiport; `None` if it is feasible.
+    /// The rule that keeps the aircraft of a decision from flying to a vertiport; `None` if it is
+    /// feasible.
     pub fn refusal(&self, decision: &Decision, to: VertiportIx) -> Option<Refusal> {
         let is_feasible = self.feasible(decision).contains(to);
         (!is_feasible).then(|| self.simulation.refusal(decision, to))
@@ -84,8 +86,8 @@ impl<'a> View<'a> {
         self.simulation.legs().legs_from(kind, from)
     }
 
-    /// The other vertiports that a corridor leads to and a full battery reaches, including those to which the route is
-    /// closed now.
+    /// The other vertiports that a corridor leads to and a full battery reaches, including those to
+    /// which the route is closed now.
     #[inline]
     pub fn within_range(&self, kind: TypeIx, from: VertiportIx) -> &'a VertiportSet {
         self.simulation.legs().within_range(kind, from)
@@ -97,21 +99,22 @@ impl<'a> View<'a> {
         self.simulation.closures().from(from)
     }
 
-    /// The vertiports closed now by closures that were not known before they began. How long these last is not known.
+    /// The vertiports closed now by closures that were not known before they began. How long these
+    /// last is not known.
     #[inline]
     pub fn closed_unexpectedly(&self, from: VertiportIx) -> VertiportSet {
         self.simulation.closures().unexpected_from(from)
     }
 
-    /// The times of known closures, over the whole day. Unknown closures are never among them, even while they are in
-    /// force.
+    /// The times of known closures, over the whole day. Unknown closures are never among them, even
+    /// while they are in force.
     #[inline]
     pub fn known_closures(&self) -> &'a ClosedTimes {
         self.simulation.closures().known()
     }
 
-    /// How often routes have closed or opened so far by unknown closures. While this number stays the same, the routes
-    /// that are closed are those that were expected to be.
+    /// How often routes have closed or opened so far by unknown closures. While this number stays
+    /// the same, the routes that are closed are those that were expected to be.
     #[inline]
     pub fn route_changes(&self) -> usize {
         self.simulation.closures().surprises_so_far()
@@ -123,21 +126,23 @@ impl<'a> View<'a> {
         self.simulation.places()
     }
 
-    /// The time at which the aircraft is expected to decide next. An outage counts once it has begun.
+    /// The time at which the aircraft is expected to decide next. An outage counts once it has
+    /// begun.
     #[inline]
     pub fn ready_at(&self, aircraft: AircraftIx) -> Time {
         self.simulation.expected_ready(aircraft)
     }
 
-    /// The time at which an aircraft landed, or will land, where it stands or is flying to; the start of operations
-    /// before its first flight. It is in the air until then.
+    /// The time at which an aircraft landed, or will land, where it stands or is flying to; the
+    /// start of operations before its first flight. It is in the air until then.
     #[inline]
     pub fn arrives_at(&self, aircraft: AircraftIx) -> Time {
         self.simulation.arrival(aircraft)
     }
 
-    /// U_i of every vertiport: the number of aircraft standing there or in the air towards it. Where chargers are
-    /// counted apart, the number of those that have a charger or are on their way to one.
+    /// U_i of every vertiport: the number of aircraft standing there or in the air towards it.
+    /// Where chargers are counted apart, the number of those that have a charger or are on their
+    /// way to one.
     #[inline]
     pub fn stands_taken(&self) -> &'a [u16] {
         self.simulation.stands().taken()
@@ -161,14 +166,15 @@ impl<'a> View<'a> {
         &self.scenario().periods
     }
 
-    /// Passengers who still want to fly from one vertiport to another in a period: actual passengers in a period that
-    /// has begun, forecast passengers in a later one.
+    /// Passengers who still want to fly from one vertiport to another in a period: actual
+    /// passengers in a period that has begun, forecast passengers in a later one.
     #[inline]
     pub fn demand_left(&self, period: usize, from: VertiportIx, to: VertiportIx) -> u32 {
         self.simulation.demand().left(period, from, to)
     }
 
-    /// The passengers of [`demand_left`](Self::demand_left) for all pairs of a period, `[from][to]` row by row.
+    /// The passengers of [`demand_left`](Self::demand_left) for all pairs of a period, `[from][to]`
+    /// row by row.
     #[inline]
     pub fn demand_left_in(&self, period: usize) -> &'a [u32] {
         self.simulation.demand().period(period)
@@ -192,7 +198,8 @@ impl<'a> View<'a> {
         self.scenario().passenger_cost_usd.row(from)
     }
 
-    /// Cost of a flight with or without passengers, beside its energy; dollars, from one vertiport to each.
+    /// Cost of a flight with or without passengers, beside its energy; dollars, from one vertiport
+    /// to each.
     #[inline]
     pub fn flight_costs_usd(&self, from: VertiportIx) -> &'a [f64] {
         self.scenario().flight_cost_usd.row(from)
@@ -215,8 +222,9 @@ impl<'a> View<'a> {
         &self.scenario().energy_price_usd
     }
 
-    /// Profit in dollars of a flight decided at `time` (not before now) if it is on time and `waiting` passengers want
-    /// to fly: fares less passenger cost, less energy at the price of its arrival, less the flight cost.
+    /// Profit in dollars of a flight decided at `time` (not before now) if it is on time and
+    /// `waiting` passengers want to fly: fares less passenger cost, less energy at the price of its
+    /// arrival, less the flight cost.
     #[inline]
     pub fn flight_profit_usd(
         &self,
@@ -257,15 +265,15 @@ impl<'a> View<'a> {
         self.scenario().operations.passenger_wait_s
     }
 
-    /// U_max of a vertiport: the number of its stands, or of its chargers where they are counted apart. A flight needs
-    /// one.
+    /// U_max of a vertiport: the number of its stands, or of its chargers where they are counted
+    /// apart. A flight needs one.
     #[inline]
     pub fn stands(&self, vertiport: VertiportIx) -> u16 {
         self.simulation.stands().limit()[vertiport.at()]
     }
 
-    /// Number of aircraft that wait on stands of a vertiport where chargers are counted apart, and number of these
-    /// stands; both 0 at other vertiports.
+    /// Number of aircraft that wait on stands of a vertiport where chargers are counted apart, and
+    /// number of these stands; both 0 at other vertiports.
     pub fn parked(&self, vertiport: VertiportIx) -> (u16, u16) {
         self.simulation.stands().parked(vertiport)
     }
@@ -275,8 +283,8 @@ impl<'a> View<'a> {
         Imagined::of(self.simulation)
     }
 
-    /// Does the same in the memory of an earlier imagined day, which is overwritten. Allocates nothing if that was of
-    /// the same day.
+    /// Does the same in the memory of an earlier imagined day, which is overwritten. Allocates
+    /// nothing if that was of the same day.
     pub fn imagined_in<'room>(&self, room: &'room mut Option<Imagined>) -> &'room mut Imagined {
         if let Some(imagined) = room {
             imagined.restart(self.simulation);

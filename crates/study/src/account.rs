@@ -1,8 +1,8 @@
-//! A played day in numbers and on a page: who was carried and who was not, how full the vertiports were, what every
-//! aircraft did, and where the money went.
+//! A played day in numbers and on a page: who was carried and who was not, how full the vertiports
+//! were, what every aircraft did, and where the money went.
 //!
-//! The page is what `simulate --report` writes. An [explanation](crate::explain) is the same account with what things are
-//! worth, and its page is this page with these sections beside it.
+//! The page is what `simulate --report` writes. An [explanation](crate::explain) is the same
+//! account with what things are worth, and its page is this page with these sections beside it.
 
 mod losses;
 pub(crate) mod page;
@@ -38,10 +38,11 @@ pub struct Account {
     pub totals: DayTotals,
     /// Demand served and spilled by period.
     pub periods: Vec<PeriodLoss>,
-    /// Demand served and spilled by pair. Pairs that some aircraft can fly come first, and among them the pair with the most
-    /// money spilled.
+    /// Demand served and spilled by pair. Pairs that some aircraft can fly come first, and among
+    /// them the pair with the most money spilled.
     pub pairs: Vec<PairLoss>,
-    /// Demand of all pairs that no aircraft of the day can fly, because they have no corridor or are beyond the range.
+    /// Demand of all pairs that no aircraft of the day can fly, because they have no corridor or
+    /// are beyond the range.
     pub cannot_be_flown: Loss,
     /// Demand spilled by pair and period, in the same order; only where some is spilled.
     pub spilled: Vec<CellLoss>,
@@ -91,7 +92,8 @@ impl Account {
         self.periods.iter().map(|one| one.demand.spilled_margin_usd).sum()
     }
 
-    /// How much of the money that is spilled no aircraft can earn, as the end of a sentence; empty if no passenger is spilled there.
+    /// How much of the money that is spilled no aircraft can earn, as the end of a sentence; empty
+    /// if no passenger is spilled there.
     pub(crate) fn spilled_out_of_reach(&self, dollars: impl Fn(f64) -> String) -> String {
         let Loss { spilled, spilled_margin_usd, .. } = self.cannot_be_flown;
         if spilled == 0 {
@@ -104,7 +106,8 @@ impl Account {
         )
     }
 
-    /// The account as a page: ledger, map, aircraft, stands, demand, all tables, and the replay of the day.
+    /// The account as a page: ledger, map, aircraft, stands, demand, all tables, and the replay of
+    /// the day.
     pub fn page(&self) -> String {
         page::text(self, &page::PageExtras::default())
     }

@@ -31,8 +31,8 @@ pub use summary::{
 /// What the report replays.
 const KEPT: Kept = Kept::ChoicesOfFirst(replay::MOST_DAYS);
 
-/// Some days of a network and the competitors that will play them. Everything that can be checked beforehand has been
-/// checked.
+/// Some days of a network and the competitors that will play them. Everything that can be checked
+/// beforehand has been checked.
 pub struct Comparison {
     network: String,
     origin: NetworkOrigin,
@@ -93,8 +93,8 @@ impl Comparison {
     /// Draws days of a network; with a `step`, each of them gets an upper bound.
     ///
     /// # Errors
-    /// Returns an error if there is no such policy or day, if two policies have the same name, or if a policy cannot
-    /// play these days; [`Error::Stopped`] soon after `stop` is requested.
+    /// Returns an error if there is no such policy or day, if two policies have the same name, or
+    /// if a policy cannot play these days; [`Error::Stopped`] soon after `stop` is requested.
     pub fn new(
         network: &Network,
         selection: &Selection<'_>,
@@ -117,8 +117,8 @@ impl Comparison {
     /// Takes the user's own days; with a `step`, each of them gets an upper bound.
     ///
     /// # Errors
-    /// Returns an error if there is no such policy, if two policies have the same name, or if a policy cannot play one
-    /// of these days.
+    /// Returns an error if there is no such policy, if two policies have the same name, or if a
+    /// policy cannot play one of these days.
     pub fn of_own(
         days: OwnDays,
         selection: &Selection<'_>,
@@ -135,8 +135,8 @@ impl Comparison {
         self.study.days()
     }
 
-    /// Warnings about what is allowed but probably not intended, such as shipped weights on a changed copy of their
-    /// network (V310).
+    /// Warnings about what is allowed but probably not intended, such as shipped weights on a
+    /// changed copy of their network (V310).
     pub fn warnings(&self) -> impl Iterator<Item = String> {
         self.study.competitors.iter().filter_map(|competitor| {
             competitor.policy()?.warning(&competitor.name, &self.network, || self.origin)
@@ -146,8 +146,8 @@ impl Comparison {
     /// Plays all days with every policy; `command` is the command line that the study records.
     ///
     /// # Errors
-    /// Returns [`Error::Stopped`] soon after `stop` is requested, and an error if a day is too large for its bound or
-    /// a policy cannot play one to its end.
+    /// Returns [`Error::Stopped`] soon after `stop` is requested, and an error if a day is too
+    /// large for its bound or a policy cannot play one to its end.
     pub fn run(
         self,
         command: String,
@@ -157,8 +157,8 @@ impl Comparison {
         let Self { network, origin, study, drawn, days_from } = self;
         let mut policies = study.play(stop, watch)?;
         let replayed = replay::replayed(&study.scenarios, &mut policies);
-        // The learning curve of a policy trained on another network says nothing about these days, and no policy was
-        // trained on the user's own days.
+        // The learning curve of a policy trained on another network says nothing about these days,
+        // and no policy was trained on the user's own days.
         let is_at_home =
             |competitor: &&Competitor| days_from.is_none() && competitor.was_trained_on(&network);
         let at_home = || study.competitors.iter().filter(is_at_home);

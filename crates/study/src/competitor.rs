@@ -1,4 +1,5 @@
-//! The competitors of a study: policies by name, and the planner as a reference that knows the days.
+//! The competitors of a study: policies by name, and the planner as a reference that knows the
+//! days.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -15,9 +16,9 @@ use crate::resolved_policy::ResolvedPolicy;
 use crate::sees::Sees;
 use crate::starting_policies::starting_policies;
 
-/// Number of steps of the planner on a day of `paper`, where a plan takes about half a minute on one core; other
-/// days get as many steps as are the same amount of work. There is no time limit, so the plan is the same on every
-/// machine.
+/// Number of steps of the planner on a day of `paper`, where a plan takes about half a minute on
+/// one core; other days get as many steps as are the same amount of work. There is no time limit,
+/// so the plan is the same on every machine.
 const PLAN_STEPS: u64 = 200_000;
 
 /// A policy or the planner, with its name in the study.
@@ -43,8 +44,8 @@ pub(crate) struct Planner {
 }
 
 impl Planner {
-    /// Plans a known day; if `stop` is requested, it returns the best schedule so far soon. The days of a study
-    /// already fill the threads, so each plan uses only one search.
+    /// Plans a known day; if `stop` is requested, it returns the best schedule so far soon. The
+    /// days of a study already fill the threads, so each plan uses only one search.
     pub(crate) fn plan(&self, day: &Arc<Scenario>, stop: &Stop) -> Trace {
         let budget = Budget::Steps(steps_of_equal_work(day, self.paper_steps));
         let settings = SearchSettings { budget, searches: 1, seed: self.seed };
@@ -70,8 +71,8 @@ impl Selection<'_> {
     /// Finds all competitors, for days of the network with this name.
     ///
     /// # Errors
-    /// Returns an error if there is no such policy, if weights cannot be read, if names and weights do not go
-    /// together, or if two competitors have the same name.
+    /// Returns an error if there is no such policy, if weights cannot be read, if names and weights
+    /// do not go together, or if two competitors have the same name.
     pub fn resolve(&self, network: &str) -> Result<Vec<Competitor>, Error> {
         self.resolve_each(network)?.into_iter().map(|(_, competitor)| competitor).collect()
     }
@@ -79,7 +80,8 @@ impl Selection<'_> {
     /// Like [`resolve`](Self::resolve), with a result of its own for each name.
     ///
     /// # Errors
-    /// Returns an error if names and weights do not go together, or if two competitors have the same name.
+    /// Returns an error if names and weights do not go together, or if two competitors have the
+    /// same name.
     pub(crate) fn resolve_each(&self, network: &str) -> Result<Vec<Named>, Error> {
         let parse = |name: &String| PolicySpec::parse(name);
         let specs: Vec<PolicySpec> = self.policies.iter().map(parse).collect::<Result<_, _>>()?;

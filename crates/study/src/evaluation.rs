@@ -1,5 +1,5 @@
-//! An evaluation: policies on the days of a suite, measured as shares of the suite's certified bounds, with a result
-//! file for each policy that others can verify.
+//! An evaluation: policies on the days of a suite, measured as shares of the suite's certified
+//! bounds, with a result file for each policy that others can verify.
 
 mod result;
 mod summary;
@@ -21,7 +21,8 @@ pub use result::{RESULT, RESULT_FORMAT, ResultDay, ResultFile, ResultPolicy};
 pub use summary::{EvaluatedPolicy, EvaluationReport, FORMAT, SuiteReport};
 pub use verify::{Verification, verify};
 
-/// A suite and the competitors that will play it. Everything that can be checked beforehand has been checked.
+/// A suite and the competitors that will play it. Everything that can be checked beforehand has
+/// been checked.
 pub struct Evaluation {
     suite: Suite,
     hashes: Vec<String>,
@@ -39,12 +40,13 @@ pub struct LeftOut {
 }
 
 impl Evaluation {
-    /// Draws the days of a suite, and finds the policies. A policy that cannot play these days, because its weights
-    /// belong to another network, is left out.
+    /// Draws the days of a suite, and finds the policies. A policy that cannot play these days,
+    /// because its weights belong to another network, is left out.
     ///
     /// # Errors
-    /// Returns an error if there is no such policy, if two policies have the same name, if no policy can play these
-    /// days, or if the days are not the ones that were frozen; [`Error::Stopped`] soon after `stop` is requested.
+    /// Returns an error if there is no such policy, if two policies have the same name, if no
+    /// policy can play these days, or if the days are not the ones that were frozen;
+    /// [`Error::Stopped`] soon after `stop` is requested.
     pub fn new(suite: Suite, selection: &Selection<'_>, stop: &Stop) -> Result<Self, Error> {
         let days = suite.draw(stop)?;
         let scenarios: Vec<Arc<Scenario>> =
@@ -60,7 +62,8 @@ impl Evaluation {
     /// Plays all days with every policy; `command` is the command line that the results record.
     ///
     /// # Errors
-    /// Returns [`Error::Stopped`] soon after `stop` is requested, and an error if a policy cannot play a day to its end.
+    /// Returns [`Error::Stopped`] soon after `stop` is requested, and an error if a policy cannot
+    /// play a day to its end.
     pub fn run(
         self,
         command: String,
@@ -82,7 +85,8 @@ pub struct EvaluationRecords {
     pub command: String,
     /// The hash of each day.
     pub hashes: Vec<String>,
-    /// The records of every policy, with bounds and choices. The other policies are measured against the first.
+    /// The records of every policy, with bounds and choices. The other policies are measured
+    /// against the first.
     pub policies: Vec<PolicyRecord>,
     /// The policies that cannot play these days.
     pub left_out: Vec<LeftOut>,

@@ -1,9 +1,11 @@
-//! Where a day's money is, and where it is lost: demand that is spilled, stands that are full, aircraft that wait; and what
-//! one more stand, aircraft, seat or a minute less would be worth on this day.
+//! Where a day's money is, and where it is lost: demand that is spilled, stands that are full,
+//! aircraft that wait; and what one more stand, aircraft, seat or a minute less would be worth on
+//! this day.
 //!
-//! What a change is worth is measured by solving the changed day again, once by the policy and once by the bound. The
-//! policy's difference is that of a single day, which chance moves by more than most changes are worth; the bound's is that
-//! of what is possible (`explain/proven.rs`). A [sweep](crate::sweep) measures changes over many days.
+//! What a change is worth is measured by solving the changed day again, once by the policy and once
+//! by the bound. The policy's difference is that of a single day, which chance moves by more than
+//! most changes are worth; the bound's is that of what is possible (`explain/proven.rs`). A
+//! [sweep](crate::sweep) measures changes over many days.
 
 mod page;
 mod proven;
@@ -44,8 +46,8 @@ pub struct Explanation {
     /// The numbers of the day as the policy played it, and what its stands are worth.
     #[serde(flatten)]
     pub account: Account,
-    /// What no schedule of the day can pass, dollars. It may be a little lower than the bound of the day alone, because the
-    /// bounds of the changed days prove something about the day too.
+    /// What no schedule of the day can pass, dollars. It may be a little lower than the bound of
+    /// the day alone, because the bounds of the changed days prove something about the day too.
     pub upper_bound_usd: f64,
     /// The length of the bound's slices, seconds.
     pub bound_step_s: u32,
@@ -53,12 +55,13 @@ pub struct Explanation {
     pub worth: Vec<Worth>,
 }
 
-/// Plays a day with a policy, bounds it, and solves it again with one thing more or less at a time. `solved` is called with
-/// the number of changes once they are known, and with 0 after each of them, from any thread.
+/// Plays a day with a policy, bounds it, and solves it again with one thing more or less at a time.
+/// `solved` is called with the number of changes once they are known, and with 0 after each of
+/// them, from any thread.
 ///
 /// # Errors
-/// Returns an error if the policy cannot play the day or the day is too large for a bound, and [`Error::Stopped`] soon
-/// after `stop` is requested.
+/// Returns an error if the policy cannot play the day or the day is too large for a bound, and
+/// [`Error::Stopped`] soon after `stop` is requested.
 pub fn explain(
     scenario: &Arc<Scenario>,
     name: &str,
@@ -109,7 +112,8 @@ impl Explanation {
         serde_json::to_string_pretty(self).expect("plain data")
     }
 
-    /// The explanation as a page: that of the [account](Account::page), the bound, and what changes are worth.
+    /// The explanation as a page: that of the [account](Account::page), the bound, and what changes
+    /// are worth.
     pub fn page(&self) -> String {
         page::text(self)
     }

@@ -1,5 +1,5 @@
-//! Properties of every figure: it is well-formed, its texts stay inside, it can be converted to PNG, and it names what
-//! it shows.
+//! Properties of every figure: it is well-formed, its texts stay inside, it can be converted to
+//! PNG, and it names what it shows.
 
 use resvg::usvg::roxmltree::Document;
 use vertifleet_picture::palette::style_sheet;

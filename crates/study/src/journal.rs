@@ -1,8 +1,10 @@
-//! The journal of a study: the parts that are finished, so that a study that ends early goes on where it was.
+//! The journal of a study: the parts that are finished, so that a study that ends early goes on
+//! where it was.
 //!
-//! A journal begins with a line that says which study it belongs to. Each finished part is a further line, which is on
-//! the disk before the next part of the same thread begins. A process that is killed leaves at most one line that is not
-//! whole; it is cut off when the journal is opened again.
+//! A journal begins with a line that says which study it belongs to. Each finished part is a
+//! further line, which is on the disk before the next part of the same thread begins. A process
+//! that is killed leaves at most one line that is not whole; it is cut off when the journal is
+//! opened again.
 
 use std::fs::{self, File, OpenOptions};
 use std::hash::Hasher;
@@ -41,8 +43,8 @@ pub(crate) struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal at `path`, and returns the parts that it holds, up to the first that `is_new` refuses. With
-    /// `anew`, a journal with another head is replaced.
+    /// Opens the journal at `path`, and returns the parts that it holds, up to the first that
+    /// `is_new` refuses. With `anew`, a journal with another head is replaced.
     pub(crate) fn open<Part: DeserializeOwned>(
         path: &Path,
         head: &Head,
@@ -73,7 +75,8 @@ impl Journal {
         let (parts, length) = whole_lines(&text, is_new);
         let file = OpenOptions::new().append(true).open(path);
         let file = file.map_err(|cause| cannot_write(path, cause))?;
-        // Everything before `length` is text that was read as it is, so the length in bytes is the same.
+        // Everything before `length` is text that was read as it is, so the length in bytes is the
+        // same.
         file.set_len(length as u64).map_err(|cause| cannot_write(path, cause))?;
         Ok((Self { path: path.to_owned(), file: Mutex::new(file) }, parts))
     }
@@ -170,7 +173,8 @@ mod tests {
     }
 
     proptest! {
-        /// Whatever part of the last line a killed process has written, all parts before it are there, bit for bit.
+        /// Whatever part of the last line a killed process has written, all parts before it are
+        /// there, bit for bit.
         #[test]
         fn parts_before_a_torn_line_are_kept(cells in 1..8_usize, cut: proptest::sample::Index, garbage: Vec<u8>) {
             let folder = tempfile::tempdir().expect("a folder");

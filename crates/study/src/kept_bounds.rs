@@ -1,5 +1,5 @@
-//! Bounds that are kept between runs, in the folder `vertifleet` in the user's cache folder, as the XDG base directory
-//! specification (freedesktop.org, version 0.8) defines it.
+//! Bounds that are kept between runs, in the folder `vertifleet` in the user's cache folder, as the
+//! XDG base directory specification (freedesktop.org, version 0.8) defines it.
 
 use std::env;
 use std::path::PathBuf;
@@ -18,8 +18,8 @@ pub struct KeptBounds {
 }
 
 impl KeptBounds {
-    /// The bounds in `$XDG_CACHE_HOME/vertifleet`, or `.cache/vertifleet` in the home folder. Without either, none are
-    /// kept.
+    /// The bounds in `$XDG_CACHE_HOME/vertifleet`, or `.cache/vertifleet` in the home folder.
+    /// Without either, none are kept.
     pub fn of_this_user() -> Self {
         // The specification requires that relative paths be ignored.
         let absolute =
@@ -32,8 +32,8 @@ impl KeptBounds {
     /// Computes the upper bounds of the days; `bounded` is called after each day, from any thread.
     ///
     /// # Errors
-    /// Returns an error if a day is too large for a bound with this step; [`Error::Stopped`] if `stopped` is requested
-    /// meanwhile.
+    /// Returns an error if a day is too large for a bound with this step; [`Error::Stopped`] if
+    /// `stopped` is requested meanwhile.
     pub(crate) fn days(
         &self,
         scenarios: Vec<Arc<Scenario>>,
@@ -54,8 +54,8 @@ impl KeptBounds {
         scenarios.into_par_iter().map(bound).collect()
     }
 
-    /// The upper bound of a day in dollars; `None` if `stopped` is requested. If the folder cannot be written
-    /// to, the bound is computed without it.
+    /// The upper bound of a day in dollars; `None` if `stopped` is requested. If the folder cannot
+    /// be written to, the bound is computed without it.
     fn upper_bound_usd(
         &self,
         scenario: &Scenario,

@@ -1,4 +1,5 @@
-//! Comparisons that are finished, kept in a file, so that a study of many of them goes on where it ended.
+//! Comparisons that are finished, kept in a file, so that a study of many of them goes on where it
+//! ended.
 
 use std::path::Path;
 
@@ -28,12 +29,12 @@ pub struct KeptComparison {
 pub struct KeptComparisons(Journal);
 
 impl KeptComparisons {
-    /// Opens the file at `path`, or begins it, and returns what it holds. `depends_on` names everything that the results of
-    /// the study depend on, except the version of the program.
+    /// Opens the file at `path`, or begins it, and returns what it holds. `depends_on` names
+    /// everything that the results of the study depend on, except the version of the program.
     ///
     /// # Errors
-    /// Returns [`Error::OtherStudy`] if the file belongs to another study, and [`Error::Core`] if it cannot be read or
-    /// written.
+    /// Returns [`Error::OtherStudy`] if the file belongs to another study, and [`Error::Core`] if
+    /// it cannot be read or written.
     pub fn open(path: &Path, depends_on: &Value) -> Result<(Self, Vec<KeptComparison>), Error> {
         let study = fingerprint(&serde_json::json!([env!("CARGO_PKG_VERSION"), depends_on]));
         let head = Head { format: FORMAT.to_owned(), study };

@@ -1,12 +1,13 @@
 //! Studies of many policies on many days: statistics, figures and reports.
 //!
-//! This crate builds on `vertifleet-optimize` and `vertifleet-learn`. [`PolicySpec`] gives the names of policies their
-//! meaning, and [`competitor`] finds the policies of a study. There are four studies: [`comparison`], of policies on
-//! the days of one network, [`evaluation`], on the days of a [`Suite`], [`sweep`], over many settings of one network, and
-//! [`size`], which searches for the best numbers of aircraft, stands and chargers. All go from the request to records.
-//! [`report`] writes the pages of a comparison; an evaluation leaves result files, which can be verified.
-//! [`ComparisonReport`] turns records into statistics. The presentation computes nothing, and the statistics do not depend on
-//! the presentation.
+//! This crate builds on `vertifleet-optimize` and `vertifleet-learn`. [`PolicySpec`] gives the
+//! names of policies their meaning, and [`competitor`] finds the policies of a study. There are
+//! four studies: [`comparison`], of policies on the days of one network, [`evaluation`], on the
+//! days of a [`Suite`], [`sweep`], over many settings of one network, and [`size`], which searches
+//! for the best numbers of aircraft, stands and chargers. All go from the request to records.
+//! [`report`] writes the pages of a comparison; an evaluation leaves result files, which can be
+//! verified. [`ComparisonReport`] turns records into statistics. The presentation computes nothing,
+//! and the statistics do not depend on the presentation.
 //!
 //! ```
 //! use vertifleet_core::{Network, Stop};

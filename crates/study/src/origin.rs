@@ -1,7 +1,9 @@
-//! Whether the days of a study come from a shipped network, or from a network that only has the name of one.
+//! Whether the days of a study come from a shipped network, or from a network that only has the
+//! name of one.
 //!
-//! Users who want more aircraft copy `networks/paper.toml`, change a number and leave the name as it is. What is known
-//! about the shipped network, above all the published figures, then says nothing about the copy.
+//! Users who want more aircraft copy `networks/paper.toml`, change a number and leave the name as
+//! it is. What is known about the shipped network, above all the published figures, then says
+//! nothing about the copy.
 
 use std::sync::Arc;
 

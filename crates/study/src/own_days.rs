@@ -1,9 +1,9 @@
-//! The user's own days to compare policies on, instead of days drawn from a seed: scenario files, or scenarios in
-//! memory.
+//! The user's own days to compare policies on, instead of days drawn from a seed: scenario files,
+//! or scenarios in memory.
 //!
-//! Results are averaged and compared pair by pair, so the days must go together: they must have the same vertiports in
-//! the same order, and each must have a name of its own. Fleet, demand, tariffs, times and disturbances may differ
-//! from day to day.
+//! Results are averaged and compared pair by pair, so the days must go together: they must have the
+//! same vertiports in the same order, and each must have a name of its own. Fleet, demand, tariffs,
+//! times and disturbances may differ from day to day.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -24,11 +24,12 @@ pub struct OwnDays {
 }
 
 impl OwnDays {
-    /// Reads the scenario files at these paths, in their order. A folder stands for all of its files whose names end
-    /// in `.json`, in the order of their names.
+    /// Reads the scenario files at these paths, in their order. A folder stands for all of its
+    /// files whose names end in `.json`, in the order of their names.
     ///
     /// # Errors
-    /// Returns an error if a file cannot be read or is not a scenario, and the errors of [`of`](Self::of).
+    /// Returns an error if a file cannot be read or is not a scenario, and the errors of
+    /// [`of`](Self::of).
     pub fn read(paths: &[PathBuf]) -> Result<Self, Error> {
         let files = files(paths)?;
         let read = |path: &PathBuf| Ok(Arc::new(Scenario::read(path)?));
@@ -39,8 +40,8 @@ impl OwnDays {
     /// Takes these days; `from` says where they came from.
     ///
     /// # Errors
-    /// Returns [`Error::DaysDiffer`] if there are no days, if they have different vertiports, or if two have the same
-    /// name.
+    /// Returns [`Error::DaysDiffer`] if there are no days, if they have different vertiports, or if
+    /// two have the same name.
     pub fn of(scenarios: Vec<Arc<Scenario>>, from: String) -> Result<Self, Error> {
         let differ = |rule: String| Err(Error::DaysDiffer { rule });
         let Some(first) = scenarios.first() else {
@@ -74,8 +75,8 @@ impl OwnDays {
         (self.scenarios, self.from)
     }
 
-    /// The name of the network that all days share, as `paper-7` has that of `paper`; otherwise where the days came
-    /// from.
+    /// The name of the network that all days share, as `paper-7` has that of `paper`; otherwise
+    /// where the days came from.
     pub fn network(&self) -> &str {
         self.shared_network().unwrap_or(&self.from)
     }

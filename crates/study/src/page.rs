@@ -1,9 +1,9 @@
-//! What the pages of studies and of days have in common: one page that opens offline, follows the reader's light or dark
-//! setting, and prints.
+//! What the pages of studies and of days have in common: one page that opens offline, follows the
+//! reader's light or dark setting, and prints.
 //!
-//! The template escapes every text that it is given; only the figures and the style sheet, which the program itself
-//! makes, are inserted as they are. The page loads nothing: style and figures are inside, and links point to files
-//! beside the page.
+//! The template escapes every text that it is given; only the figures and the style sheet, which
+//! the program itself makes, are inserted as they are. The page loads nothing: style and figures
+//! are inside, and links point to files beside the page.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use vertifleet_picture::numbers::typeset;
@@ -37,12 +37,14 @@ fn style() -> String {
     )
 }
 
-/// The only script of a page of this crate: an address that leads to a moment of the replay leads to the frame of the
-/// replay, which is loaded when it is looked at. A server of the page names it in the policy of what the page may run.
+/// The only script of a page of this crate: an address that leads to a moment of the replay leads
+/// to the frame of the replay, which is loaded when it is looked at. A server of the page names it
+/// in the policy of what the page may run.
 pub const REPLAY_FRAME_SCRIPT: &str =
     "if (/[#&]at=/.test(location.hash)) document.querySelector('iframe.replay').scrollIntoView()";
 
-/// The page of a replay in a frame of its own, which keeps its style and its scripts apart from the page.
+/// The page of a replay in a frame of its own, which keeps its style and its scripts apart from the
+/// page.
 pub(crate) fn replay_frame(page: &str) -> Markup {
     html! {
         iframe.replay title="Replay" loading="lazy" srcdoc=(page) {}

@@ -1,5 +1,5 @@
-//! The names of policies: [`PolicySpec::parse`] reads a name, and [`PolicySpec::resolve`] finds the weights or the
-//! trace that it refers to.
+//! The names of policies: [`PolicySpec::parse`] reads a name, and [`PolicySpec::resolve`] finds the
+//! weights or the trace that it refers to.
 //!
 //! All commands and the Python package name policies in this way.
 
@@ -79,11 +79,13 @@ pub enum ResolveFor<'a> {
 }
 
 impl PolicySpec {
-    /// Reads a name such as `greedy`, `gcaps-x:rollouts=3` or `replay:day.csv`. A name that is not known may be one of
-    /// the user's own, for the source that is given to [`resolve`](Self::resolve).
+    /// Reads a name such as `greedy`, `gcaps-x:rollouts=3` or `replay:day.csv`. A name that is not
+    /// known may be one of the user's own, for the source that is given to
+    /// [`resolve`](Self::resolve).
     ///
     /// # Errors
-    /// Returns [`Error::Asked`] if the name has a control character, or if the text after `gcaps-x:` is not valid.
+    /// Returns [`Error::Asked`] if the name has a control character, or if the text after
+    /// `gcaps-x:` is not valid.
     pub fn parse(name: &str) -> Result<Self, Error> {
         if name.contains(char::is_control) {
             return Err(Error::Asked {
@@ -122,8 +124,8 @@ impl PolicySpec {
         self.kind == Kind::Planner
     }
 
-    /// Whether a source that is given under `name` belongs to this policy. `gcaps-x` also belongs to
-    /// `gcaps-x:rollouts=3`.
+    /// Whether a source that is given under `name` belongs to this policy. `gcaps-x` also belongs
+    /// to `gcaps-x:rollouts=3`.
     pub fn takes(&self, name: &str) -> bool {
         let is_architecture = |kind: &Kind| matches!(kind, Kind::Learned { architecture, .. } if *architecture == name);
         self.name == name || is_architecture(&self.kind)
@@ -142,12 +144,12 @@ impl PolicySpec {
         }
     }
 
-    /// Finds the policy: from the given source, or else a rule, a trace, or weights that the program ships. `seed` is
-    /// for the random policy.
+    /// Finds the policy: from the given source, or else a rule, a trace, or weights that the
+    /// program ships. `seed` is for the random policy.
     ///
     /// # Errors
-    /// Returns an error if there is no such policy, if weights or trace cannot be read, or if name and weights do not
-    /// go together. The planner is not a policy.
+    /// Returns an error if there is no such policy, if weights or trace cannot be read, or if name
+    /// and weights do not go together. The planner is not a policy.
     pub fn resolve(
         &self,
         source: Option<&PolicySource>,
@@ -187,8 +189,8 @@ impl PolicySpec {
         }
     }
 
-    /// The policy of the given source. If the name is that of an architecture, the weights must be of that
-    /// architecture.
+    /// The policy of the given source. If the name is that of an architecture, the weights must be
+    /// of that architecture.
     fn given(&self, source: &PolicySource, days: ResolveFor<'_>) -> Result<ResolvedPolicy, Error> {
         let (model, origin) = match source {
             PolicySource::File(path) => (Arc::new(Model::read(path)?), path.display().to_string()),
@@ -207,8 +209,8 @@ impl PolicySpec {
             }
             most = most_rolled_out;
         }
-        // Learning curves are shown beside results of many days only. For one day, a curve that cannot be read must
-        // not cause an error.
+        // Learning curves are shown beside results of many days only. For one day, a curve that
+        // cannot be read must not cause an error.
         let curves = match (source, days) {
             (PolicySource::File(path), ResolveFor::DaysOf(_)) => Curve::read_beside(path)?,
             _ => Vec::new(),

@@ -1,10 +1,12 @@
-//! The figures that §V.B of the paper publishes, and why they stand beside our results without being a target.
+//! The figures that §V.B of the paper publishes, and why they stand beside our results without
+//! being a target.
 
 use serde::Serialize;
 
 use crate::origin::NetworkOrigin;
 
-/// The name of the shipped network that follows the paper; the published figures apply to no other network.
+/// The name of the shipped network that follows the paper; the published figures apply to no other
+/// network.
 const PAPER_NETWORK: &str = "paper";
 
 /// The results of one method in §V.B on the authors' 100 test days.
@@ -64,8 +66,8 @@ pub const NOTE: [&str; 3] = [
      it earns beside the random and the greedy rule on the same unseen days.",
 ];
 
-/// The published results that apply to this network: those of §V.B for `paper` as it is shipped, and none for any
-/// other.
+/// The published results that apply to this network: those of §V.B for `paper` as it is shipped,
+/// and none for any other.
 pub fn results_for(network: &str, origin: NetworkOrigin) -> &'static [PublishedResult] {
     if network == PAPER_NETWORK && origin == NetworkOrigin::Shipped { &RESULTS } else { &[] }
 }

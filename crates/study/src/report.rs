@@ -1,5 +1,5 @@
-//! How studies are shown: as text, as JSON, and as a folder with a page, figures and tables. The folder is replaced as
-//! a whole, so a page never stands beside the figures of another run.
+//! How studies are shown: as text, as JSON, and as a folder with a page, figures and tables. The
+//! folder is replaced as a whole, so a page never stands beside the figures of another run.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,8 +17,8 @@ pub trait Records {
     /// The study as a table for a terminal, without a line end after the last line.
     ///
     /// # Errors
-    /// Returns [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies
-    /// on the same days.
+    /// Returns [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not
+    /// those of policies on the same days.
     fn text(&self) -> Result<String, Error>;
 
     /// The numbers of the study as JSON.
@@ -64,12 +64,13 @@ pub(crate) const FOLDER: FolderKind = FolderKind {
     },
 };
 
-/// Checks, before the days are played, that a report may be written to this folder: it can be created, is empty, or
-/// holds an earlier report, or `force` is given. A folder that did not exist before does not exist afterwards.
+/// Checks, before the days are played, that a report may be written to this folder: it can be
+/// created, is empty, or holds an earlier report, or `force` is given. A folder that did not exist
+/// before does not exist afterwards.
 ///
 /// # Errors
-/// Returns [`Error::CannotMakeFolder`], or [`Error::Core`] for a folder that holds something else (V143) or is
-/// read-only (V144).
+/// Returns [`Error::CannotMakeFolder`], or [`Error::Core`] for a folder that holds something else
+/// (V143) or is read-only (V144).
 pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
     let missing =
         folder.ancestors().take_while(|path| !path.as_os_str().is_empty() && !path.exists());
@@ -84,12 +85,13 @@ pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
     Ok(vertifleet_core::check_folder(folder, &FOLDER, force)?)
 }
 
-/// Writes the whole report of a study into `folder`, or nothing; the folder is created if it does not exist. An
-/// earlier report in it is replaced; with `force`, a folder with other content is kept beside it.
+/// Writes the whole report of a study into `folder`, or nothing; the folder is created if it does
+/// not exist. An earlier report in it is replaced; with `force`, a folder with other content is
+/// kept beside it.
 ///
 /// # Errors
-/// The same as those of [`check_folder`] and [`Records::text`], and [`Error::Core`] (V102) if the report cannot be
-/// written. After an error everything is as it was.
+/// The same as those of [`check_folder`] and [`Records::text`], and [`Error::Core`] (V102) if the
+/// report cannot be written. After an error everything is as it was.
 pub fn write(study: &impl Records, folder: &Path, force: bool) -> Result<Written, Error> {
     let files = study.files()?;
     check_folder(folder, force)?;

@@ -1,4 +1,5 @@
-//! A policy with everything that it needs to decide; each thread that needs the policy builds its own.
+//! A policy with everything that it needs to decide; each thread that needs the policy builds its
+//! own.
 
 use std::fmt;
 use std::sync::Arc;
@@ -33,9 +34,11 @@ pub enum ResolvedPolicy {
     Learned {
         /// Its weights.
         model: Arc<Model>,
-        /// How many choices `gcaps-x` rolls out; with 1 it decides at once, as the others always do.
+        /// How many choices `gcaps-x` rolls out; with 1 it decides at once, as the others always
+        /// do.
         most_rolled_out: usize,
-        /// The learning curve of the run of these weights, followed by those of runs with other seeds.
+        /// The learning curve of the run of these weights, followed by those of runs with other
+        /// seeds.
         curves: Vec<Curve>,
         /// Whether the program ships the weights.
         is_shipped: bool,
@@ -81,7 +84,8 @@ impl ResolvedPolicy {
     /// Plays a day to its end; `name` is the policy's name in an error.
     ///
     /// # Errors
-    /// Returns [`Error::Stuck`] if the policy cannot play the day; [`Error::Stopped`] soon after `stop` is requested.
+    /// Returns [`Error::Stuck`] if the policy cannot play the day; [`Error::Stopped`] soon after
+    /// `stop` is requested.
     pub fn play(
         &self,
         name: &str,
@@ -108,15 +112,21 @@ impl ResolvedPolicy {
         }
     }
 
-    /// The warning V310 for one day: shipped weights are to decide on a changed copy of their network.
+    /// The warning V310 for one day: shipped weights are to decide on a changed copy of their
+    /// network.
     pub fn warning_for(&self, name: &str, day: &Scenario) -> Option<String> {
         let network = network_of(day);
         self.warning(name, network, || NetworkOrigin::of(network, [day]))
     }
 
-    /// V310: the warning for shipped weights that decide on a network that only has the name of their own. Cause: the
-    /// network or the scenario was copied and changed. Fix: train weights on the changed network, or accept that these
-    /// weights were trained on the other one.
+    /// V310 shipped weights on a changed network (warning). `gcaps` or `mlp` uses the weights that
+    /// are shipped for a network, but the days are not days of that network: its file or the
+    /// scenario was copied and changed, and kept its name. This is a warning: the weights decide
+    /// all the same, and often well, but they were not trained with the change. The report then
+    /// does not show the published figures.
+    ///
+    /// Fix: none is needed if this is what you want. Otherwise train weights on your network and
+    /// give them with `--model`, or give your network another name.
     pub(crate) fn warning(
         &self,
         name: &str,
@@ -187,8 +197,8 @@ impl ResolvedPolicy {
         }
     }
 
-    /// Decisions learned from and mean reward on the training days; empty for a policy that does not learn from
-    /// rewards.
+    /// Decisions learned from and mean reward on the training days; empty for a policy that does
+    /// not learn from rewards.
     pub(crate) fn training_rewards(&self) -> Vec<(u64, f64)> {
         match self {
             Self::Learned { curves, .. } => {
@@ -198,11 +208,12 @@ impl ResolvedPolicy {
         }
     }
 
-    /// Decisions learned from and mean reward on the validation days, run by run; empty for a policy that was not
-    /// trained, or not validated during its training.
+    /// Decisions learned from and mean reward on the validation days, run by run; empty for a
+    /// policy that was not trained, or not validated during its training.
     pub(crate) fn validation_rewards(&self) -> Vec<Vec<(u64, f64)>> {
         let mut runs: Vec<Vec<(u64, f64)>> = match self {
-            // With roll-outs the policy decides in another way than it did in training, so the curves do not apply.
+            // With roll-outs the policy decides in another way than it did in training, so the
+            // curves do not apply.
             Self::Learned { curves, most_rolled_out: 1, .. } => {
                 curves.iter().map(Curve::validation_rewards).collect()
             }

@@ -1,8 +1,8 @@
 //! Plays every policy on every day of a comparison, on all available threads.
 //!
-//! A policy plays a day the same way regardless of the rest of the comparison, so the records are the same on any
-//! number of threads. Only the times per decision are measurements of this machine, taken while its other threads are
-//! busy too.
+//! A policy plays a day the same way regardless of the rest of the comparison, so the records are
+//! the same on any number of threads. Only the times per decision are measurements of this machine,
+//! taken while its other threads are busy too.
 
 mod batches;
 
@@ -66,8 +66,8 @@ impl Kept {
 /// Plays all days with a competitor. `played` is called after each of them, from any thread.
 ///
 /// # Errors
-/// Returns [`Error::Stuck`] if a policy cannot play a day to its end; [`Error::Stopped`] soon after `stop` is
-/// requested.
+/// Returns [`Error::Stuck`] if a policy cannot play a day to its end; [`Error::Stopped`] soon after
+/// `stop` is requested.
 pub(crate) fn play_all(
     competitor: &Competitor,
     days: &[BoundedDay],
@@ -93,8 +93,8 @@ pub(crate) fn play_all(
     })
 }
 
-/// Plays all days with a policy that decides while they are played, one policy per thread, and measures the time of
-/// its decisions.
+/// Plays all days with a policy that decides while they are played, one policy per thread, and
+/// measures the time of its decisions.
 fn play_policy(
     name: &str,
     policy: &ResolvedPolicy,
@@ -172,7 +172,8 @@ fn record(day: &BoundedDay, simulation: &Simulation, choices: Vec<VertiportIx>) 
     }
 }
 
-/// A policy whose every choice is timed by itself, as a dispatcher would ask for it, until a stop is requested.
+/// A policy whose every choice is timed by itself, as a dispatcher would ask for it, until a stop
+/// is requested.
 struct Timed<'a> {
     policy: Stoppable<'a, dyn Policy>,
     nanoseconds: Vec<u64>,
@@ -187,7 +188,8 @@ impl Policy for Timed<'_> {
     }
 }
 
-/// The median and the 99th percentile as times that did occur (nearest rank); zero if there were no decisions.
+/// The median and the 99th percentile as times that did occur (nearest rank); zero if there were no
+/// decisions.
 fn latency(mut nanoseconds: Vec<u64>) -> LatencySummary {
     nanoseconds.sort_unstable();
     let at_rank = |percent: usize| {
@@ -212,7 +214,8 @@ mod tests {
     fn competitors() -> Vec<Competitor> {
         let kinds = [
             ("random", Kind::Policy(ResolvedPolicy::Random(7))),
-            // With one step the planner finds nothing better than its start, which does not matter here.
+            // With one step the planner finds nothing better than its start, which does not matter
+            // here.
             ("plan", Kind::Planner(Planner { paper_steps: 1, seed: 7 })),
             ("greedy", Kind::Policy(ResolvedPolicy::Greedy)),
         ];

@@ -1,4 +1,5 @@
-//! What a policy may look at when it decides: its information class. Only policies of one class compete on equal terms.
+//! What a policy may look at when it decides: its information class. Only policies of one class
+//! compete on equal terms.
 
 use std::fmt;
 

@@ -1,4 +1,5 @@
-//! Shares of the upper bounds, policy by policy: what is measured where profits on different days cannot be averaged.
+//! Shares of the upper bounds, policy by policy: what is measured where profits on different days
+//! cannot be averaged.
 
 use serde::Serialize;
 
@@ -13,7 +14,8 @@ pub struct PolicyShare {
     pub name: String,
     /// Describes what the policy does.
     pub description: String,
-    /// Whether the days were planned with the whole day known, which makes it a reference and not a policy.
+    /// Whether the days were planned with the whole day known, which makes it a reference and not a
+    /// policy.
     pub knows_the_day: bool,
     /// What it looks at when it decides.
     pub sees: Sees,

@@ -1,10 +1,11 @@
 //! Sizing: how many aircraft, stands and chargers a network should have.
 //!
-//! The search ([`Goal`]) goes over designs, each of which is the network with other numbers of aircraft, stands and
-//! chargers. All designs meet the same days with common random numbers, as the cells of a [sweep](crate::sweep) do. Bounds
-//! of a few designs bound all of them ([`vertifleet_optimize::DesignBound`]), which shows where good designs are and proves how far the best
-//! that was found can be from the best there is. The best is played again on days that the search has not seen, because the
-//! best of many looks better than it is.
+//! The search ([`Goal`]) goes over designs, each of which is the network with other numbers of
+//! aircraft, stands and chargers. All designs meet the same days with common random numbers, as the
+//! cells of a [sweep](crate::sweep) do. Bounds of a few designs bound all of them
+//! ([`vertifleet_optimize::DesignBound`]), which shows where good designs are and proves how far
+//! the best that was found can be from the best there is. The best is played again on days that the
+//! search has not seen, because the best of many looks better than it is.
 
 mod ceiling;
 mod csv;
@@ -90,8 +91,9 @@ impl Sizing {
     /// Reads the request.
     ///
     /// # Errors
-    /// Returns an error if a factor leads nowhere or varies something else than aircraft, stands and chargers, if no design
-    /// has an aircraft and a stand for it, if there is no such policy, or if it cannot play the days.
+    /// Returns an error if a factor leads nowhere or varies something else than aircraft, stands
+    /// and chargers, if no design has an aircraft and a stand for it, if there is no such policy,
+    /// or if it cannot play the days.
     pub fn new(request: SizeRequest<'_>) -> Result<Self, Error> {
         let SizeRequest { network, factors, goal, selection, drawn, bound_step, designs } = request;
         let again = DrawnDays { first: drawn.first.saturating_add(u64::from(drawn.days)), ..drawn };
@@ -152,22 +154,25 @@ impl Sizing {
         fingerprint(&text)
     }
 
-    /// Checks, before anything is played, that the search may be kept in this folder: there is none, it is empty, or it holds
-    /// a search, or `force` is given.
+    /// Checks, before anything is played, that the search may be kept in this folder: there is
+    /// none, it is empty, or it holds a search, or `force` is given.
     ///
     /// # Errors
-    /// Returns [`Error::Core`] for a folder that holds something else (V143) or is read-only (V144).
+    /// Returns [`Error::Core`] for a folder that holds something else (V143) or is read-only
+    /// (V144).
     pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
         Ok(check_folder(folder, &FOLDER, force)?)
     }
 
-    /// Searches. What is found out of each design is in the folder, which is made if it is not there, before the next one,
-    /// and what is there already is not found out again. `played` is called after each design that was played. With `force`,
-    /// another search in the folder is replaced.
+    /// Searches. What is found out of each design is in the folder, which is made if it is not
+    /// there, before the next one, and what is there already is not found out again. `played` is
+    /// called after each design that was played. With `force`, another search in the folder is
+    /// replaced.
     ///
     /// # Errors
-    /// Returns [`Error::CannotMakeFolder`], [`Error::OtherStudy`] if the folder holds another search, [`Error::Stopped`]
-    /// soon after `stop` is requested, and an error if a day is too large for its bound or a policy cannot play one.
+    /// Returns [`Error::CannotMakeFolder`], [`Error::OtherStudy`] if the folder holds another
+    /// search, [`Error::Stopped`] soon after `stop` is requested, and an error if a day is too
+    /// large for its bound or a policy cannot play one.
     pub fn run(
         &self,
         folder: &Path,
@@ -200,8 +205,8 @@ impl Sizing {
         Ok(cells.map(|&passengers| f64::from(passengers)).sum::<f64>() / f64::from(self.drawn.days))
     }
 
-    /// What is wanted. Where nothing costs anything, designs are compared by their aircraft, and by their stands where they
-    /// have equally many.
+    /// What is wanted. Where nothing costs anything, designs are compared by their aircraft, and by
+    /// their stands where they have equally many.
     fn aim(&self, stop: &Stop) -> Result<Aim, Error> {
         let need = match self.goal {
             Goal::Served(share) => share * self.wanted(stop)?,
@@ -235,8 +240,9 @@ impl SizeRecords {
         &self.report
     }
 
-    /// Writes tables, figure, page and the network file of the best design into the folder of the search, each file whole
-    /// or not at all. The same search gives the same bytes, however often it was interrupted.
+    /// Writes tables, figure, page and the network file of the best design into the folder of the
+    /// search, each file whole or not at all. The same search gives the same bytes, however often
+    /// it was interrupted.
     ///
     /// # Errors
     /// Returns [`Error::Core`] (V102) if a file cannot be written.

@@ -5,8 +5,8 @@ use vertifleet_optimize::StartingPolicy;
 
 use crate::policy_spec::{PolicySpec, ResolveFor};
 
-/// The learned policies that the program ships for a day's network and for every network. Together with the rules,
-/// these are the policies from whose days a search for a plan can start.
+/// The learned policies that the program ships for a day's network and for every network. Together
+/// with the rules, these are the policies from whose days a search for a plan can start.
 pub fn starting_policies(scenario: &Scenario) -> Vec<StartingPolicy> {
     let names = ["gcaps-x", "gcaps", "mlp"];
     let shipped = names.into_iter().filter_map(|name| {

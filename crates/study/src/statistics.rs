@@ -1,7 +1,7 @@
 //! Descriptive statistics and the paired t-test (§V.B), on plain slices.
 //!
-//! For finite values, no result is NaN or infinite: an undefined result (a standard deviation of one value, the t
-//! statistic of differences that do not vary) is `None`.
+//! For finite values, no result is NaN or infinite: an undefined result (a standard deviation of
+//! one value, the t statistic of differences that do not vary) is `None`.
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -21,7 +21,8 @@ pub struct Estimate {
     /// Sample standard deviation (n - 1 in the denominator); `None` with fewer than two values.
     #[serde(deserialize_with = "Option::deserialize")]
     pub standard_deviation: Option<f64>,
-    /// Half the width of the 95 % confidence interval of the mean (Student's t); `None` with fewer than two values.
+    /// Half the width of the 95 % confidence interval of the mean (Student's t); `None` with fewer
+    /// than two values.
     #[serde(deserialize_with = "Option::deserialize")]
     pub half_width_95: Option<f64>,
 }
@@ -55,7 +56,8 @@ pub fn standard_deviation(values: &[f64]) -> Option<f64> {
     if rest.is_empty() {
         return None;
     }
-    // The mean of equal values may differ from them by rounding, so a deviation of zero is returned explicitly.
+    // The mean of equal values may differ from them by rounding, so a deviation of zero is returned
+    // explicitly.
     if rest.iter().all(|value| value.total_cmp(first).is_eq()) {
         return Some(0.0);
     }
@@ -64,7 +66,8 @@ pub fn standard_deviation(values: &[f64]) -> Option<f64> {
     Some((squares / (values.len() as f64 - 1.0)).sqrt())
 }
 
-/// What a box plot shows: quartiles, whiskers at most 1.5 interquartile ranges long, and the values beyond them.
+/// What a box plot shows: quartiles, whiskers at most 1.5 interquartile ranges long, and the values
+/// beyond them.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BoxSummary {
     /// Smallest value that is no outlier.
@@ -92,8 +95,8 @@ impl BoxSummary {
         let reach = 1.5 * (third_quartile - first_quartile);
         let inside =
             |value: f64| value >= first_quartile - reach && value <= third_quartile + reach;
-        // With few values, a quartile can lie beyond the last value within reach; a whisker must not end inside the
-        // box.
+        // With few values, a quartile can lie beyond the last value within reach; a whisker must
+        // not end inside the box.
         let low_whisker = sorted.iter().copied().find(|&value| inside(value))?.min(first_quartile);
         let high_whisker =
             sorted.iter().copied().rfind(|&value| inside(value))?.max(third_quartile);
@@ -102,7 +105,8 @@ impl BoxSummary {
     }
 }
 
-/// Quantile by linear interpolation between order statistics (type 7 of Hyndman and Fan, as in `NumPy` and R).
+/// Quantile by linear interpolation between order statistics (type 7 of Hyndman and Fan, as in
+/// `NumPy` and R).
 fn quantile(sorted: &[f64], probability: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let position = probability * last as f64;
@@ -116,9 +120,9 @@ fn quantile(sorted: &[f64], probability: f64) -> Option<f64> {
     Some(sorted[below] + (position - position.floor()) * (sorted[above] - sorted[below]))
 }
 
-/// Corrects the p-values of several tests so that the chance of any false finding among them stays what it is for one
-/// (S. Holm, *A Simple Sequentially Rejective Multiple Test Procedure*, Scandinavian Journal of Statistics 6, 1979). Tests
-/// without a p-value do not count.
+/// Corrects the p-values of several tests so that the chance of any false finding among them stays
+/// what it is for one (S. Holm, *A Simple Sequentially Rejective Multiple Test Procedure*,
+/// Scandinavian Journal of Statistics 6, 1979). Tests without a p-value do not count.
 pub fn holm(p_values: &[Option<f64>]) -> Vec<Option<f64>> {
     let mut ranked: Vec<(usize, f64)> =
         p_values.iter().enumerate().filter_map(|(at, p)| Some((at, (*p)?))).collect();
@@ -146,8 +150,8 @@ pub struct PairedTest {
     pub t: Option<f64>,
     /// Degrees of freedom, n - 1.
     pub degrees_of_freedom: usize,
-    /// Two-sided p-value; `None` with fewer than two pairs. If the differences do not vary it is the limit: 1 if all
-    /// are zero, else 0.
+    /// Two-sided p-value; `None` with fewer than two pairs. If the differences do not vary it is
+    /// the limit: 1 if all are zero, else 0.
     pub p_value: Option<f64>,
 }
 
@@ -187,7 +191,8 @@ impl PairedTest {
 }
 
 fn two_sided_p(t: f64, degrees_of_freedom: f64) -> f64 {
-    // This takes the upper tail itself, not one minus the lower part, so that small p-values keep their digits.
+    // This takes the upper tail itself, not one minus the lower part, so that small p-values keep
+    // their digits.
     (2.0 * students_t(degrees_of_freedom).sf(t.abs())).min(1.0)
 }
 

@@ -1,9 +1,11 @@
-//! Checks of the statistics against published values and against SciPy 1.x and matplotlib, computed once.
+//! Checks of the statistics against published values and against SciPy 1.x and matplotlib, computed
+//! once.
 
 use super::{BoxSummary, Estimate, PairedTest, holm, mean, standard_deviation, t_quantile};
 
-/// Extra hours of sleep with two drugs for ten patients: Student, "The probable error of a mean", Biometrika 6 (1908),
-/// the data set `sleep` of R. For `t.test(..., paired = TRUE)`, R's manual gives t = -4.0621, df = 9, p = 0.002833.
+/// Extra hours of sleep with two drugs for ten patients: Student, "The probable error of a mean",
+/// Biometrika 6 (1908), the data set `sleep` of R. For `t.test(..., paired = TRUE)`, R's manual
+/// gives t = -4.0621, df = 9, p = 0.002833.
 const FIRST_DRUG: [f64; 10] = [0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0];
 const SECOND_DRUG: [f64; 10] = [1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4];
 
@@ -16,8 +18,9 @@ fn assert_close(found: f64, expected: f64, relative: f64) {
 
 #[test]
 fn students_sleep_experiment_gives_the_published_test() {
-    // scipy.stats.ttest_rel(first, second): statistic=-4.062127683382037, pvalue=0.002832890197384273, df=9,
-    // confidence_interval() = (-2.459885763276983, -0.7001142367230175)
+    // scipy.stats.ttest_rel(first, second): statistic=-4.062127683382037,
+    // pvalue=0.002832890197384273, df=9, confidence_interval() = (-2.459885763276983,
+    // -0.7001142367230175)
     let test = PairedTest::of(&FIRST_DRUG, &SECOND_DRUG);
     assert_eq!(test.degrees_of_freedom, 9);
     assert_close(test.t.expect("varies"), -4.062_127_683_382_037, 1e-12);
@@ -53,7 +56,8 @@ fn quantiles_of_students_t_match_scipy() {
     }
 }
 
-/// `base + step * ((factor * i) % 100) + slope * i` for i = 0 ... 99: values that any tool can reproduce.
+/// `base + step * ((factor * i) % 100) + slope * i` for i = 0 ... 99: values that any tool can
+/// reproduce.
 fn made_up(base: f64, step: f64, factor: u32, slope: f64) -> Vec<f64> {
     (0..100u32)
         .map(|i| base + step * f64::from((factor * i) % 100) + slope * f64::from(i))
@@ -62,8 +66,9 @@ fn made_up(base: f64, step: f64, factor: u32, slope: f64) -> Vec<f64> {
 
 #[test]
 fn a_hundred_days_give_the_p_value_of_scipy() {
-    // x=[28000+137*((i*37)%100)+0.5*i for i in range(100)]; y=[27000+141*((i*53)%100)-0.25*i for i in range(100)]
-    // scipy.stats.ttest_rel(x, y): statistic=1.5094533706744344, pvalue=0.13436800224146808, df=99
+    // x=[28000+137*((i*37)%100)+0.5*i for i in range(100)]; y=[27000+141*((i*53)%100)-0.25*i for i
+    // in range(100)] scipy.stats.ttest_rel(x, y): statistic=1.5094533706744344,
+    // pvalue=0.13436800224146808, df=99
     let first = made_up(28_000.0, 137.0, 37, 0.5);
     let second = made_up(27_000.0, 141.0, 53, -0.25);
     let test = PairedTest::of(&first, &second);

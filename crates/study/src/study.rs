@@ -14,13 +14,15 @@ use crate::run::{BoundedDay, Kept, play_all};
 /// The most days, or networks, of a study.
 pub const MOST_DAYS: u32 = 1_000_000;
 
-/// Follows the progress of a study. Each method returns a function that is called after every day, from any thread.
+/// Follows the progress of a study. Each method returns a function that is called after every day,
+/// from any thread.
 pub trait Watch {
     /// The function that is called after a day.
     type Bar: Fn() + Sync;
     /// Called before this many days are bounded.
     fn bounds(&self, days: usize) -> Self::Bar;
-    /// Called before this policy plays this many days; it is number `position` of `policies`, from 1.
+    /// Called before this policy plays this many days; it is number `position` of `policies`,
+    /// from 1.
     fn policy(&self, name: &str, position: usize, policies: usize, days: usize) -> Self::Bar;
     /// Called when a policy has played all its days.
     fn played(&self, _: &PolicyRecord) {}
@@ -68,8 +70,8 @@ pub(crate) struct Study {
 
 impl Study {
     /// # Errors
-    /// Returns [`Error::Empty`] if there is no competitor or no day, and an error if a competitor cannot play one of
-    /// the days.
+    /// Returns [`Error::Empty`] if there is no competitor or no day, and an error if a competitor
+    /// cannot play one of the days.
     pub(crate) fn new(
         competitors: Vec<Competitor>,
         scenarios: Vec<Arc<Scenario>>,
@@ -88,7 +90,8 @@ impl Study {
         self.scenarios.iter().map(Arc::as_ref)
     }
 
-    /// Bounds all days, if bounds are asked for, and plays them with every competitor, one competitor after the other.
+    /// Bounds all days, if bounds are asked for, and plays them with every competitor, one
+    /// competitor after the other.
     pub(crate) fn play(&self, stop: &Stop, watch: &impl Watch) -> Result<Vec<PolicyRecord>, Error> {
         let Self { competitors, scenarios, bounds, kept } = self;
         let (number, scenarios) = (scenarios.len(), scenarios.clone());

@@ -1,12 +1,13 @@
-//! Suites: frozen sets of days with names and certified upper bounds, so that results of different people can be set
-//! side by side.
+//! Suites: frozen sets of days with names and certified upper bounds, so that results of different
+//! people can be set side by side.
 //!
-//! A suite's days are drawn, not stored. The table of a suite (`suites/NAME.csv`, made by `make suites`) has a hash of
-//! each day, and a day that is drawn otherwise than it was when the suite was frozen is refused. All days are comparison
-//! days, which no training and no validation ever draws.
+//! A suite's days are drawn, not stored. The table of a suite (`suites/NAME.csv`, made by
+//! `make suites`) has a hash of each day, and a day that is drawn otherwise than it was when the
+//! suite was frozen is refused. All days are comparison days, which no training and no validation
+//! ever draws.
 //!
-//! `random:N` names the days of the first N random networks in the same way. They are not frozen: their bounds are proven
-//! when they are needed.
+//! `random:N` names the days of the first N random networks in the same way. They are not frozen:
+//! their bounds are proven when they are needed.
 
 mod frozen;
 
@@ -49,8 +50,8 @@ enum DrawnFrom {
     Cities,
     /// A random network for each day, from number 0 on; the seed is the network's number.
     RandomNetworks,
-    /// A network like the paper's with so many vertiports at random places for each day, from number 0 on; the seed is
-    /// the network's number.
+    /// A network like the paper's with so many vertiports at random places for each day, from
+    /// number 0 on; the seed is the network's number.
     RandomPlaces(usize),
 }
 
@@ -159,7 +160,8 @@ impl Suite {
         })
     }
 
-    /// The network that all of its days are drawn from; `None` if each day has a network of its own.
+    /// The network that all of its days are drawn from; `None` if each day has a network of its
+    /// own.
     pub fn network(&self) -> Option<&'static str> {
         match self.drawn_from {
             DrawnFrom::Network(name) => Some(name),
@@ -167,7 +169,8 @@ impl Suite {
         }
     }
 
-    /// The name of the network whose shipped weights are meant. Days at random places are like those of `paper`.
+    /// The name of the network whose shipped weights are meant. Days at random places are like
+    /// those of `paper`.
     pub(crate) fn home(&self) -> &'static str {
         match self.drawn_from {
             DrawnFrom::Network(name) => name,
@@ -180,7 +183,8 @@ impl Suite {
     /// Draws the days, and checks that they are the ones that were frozen, if any were.
     ///
     /// # Errors
-    /// Returns [`Error::SuiteChanged`] if a day is not what it was; [`Error::Stopped`] soon after `stop` is requested.
+    /// Returns [`Error::SuiteChanged`] if a day is not what it was; [`Error::Stopped`] soon after
+    /// `stop` is requested.
     pub fn draw(&self, stop: &Stop) -> Result<Vec<SuiteDay>, Error> {
         let Some(table) = self.table else {
             let day = |scenario: Arc<Scenario>| SuiteDay {
@@ -214,7 +218,8 @@ impl Suite {
     /// Draws the days as [`draw`](Self::draw) does, and proves the bounds that are missing.
     ///
     /// # Errors
-    /// Returns the errors of [`draw`](Self::draw), and an error if a day is too large for its bound.
+    /// Returns the errors of [`draw`](Self::draw), and an error if a day is too large for its
+    /// bound.
     pub fn draw_with_bounds(&self, stop: &Stop) -> Result<Vec<SuiteDay>, Error> {
         let mut days = self.draw(stop)?;
         if !self.is_frozen() {
@@ -237,11 +242,12 @@ impl Suite {
         Ok(Step::from_minutes(self.step_minutes)?)
     }
 
-    /// Proves the bounds of all days anew, and returns the text of the suite's table. `bounded` is called after each
-    /// day, from any thread.
+    /// Proves the bounds of all days anew, and returns the text of the suite's table. `bounded` is
+    /// called after each day, from any thread.
     ///
     /// # Errors
-    /// Returns an error if a day is too large for its bound; [`Error::Stopped`] soon after `stop` is requested.
+    /// Returns an error if a day is too large for its bound; [`Error::Stopped`] soon after `stop`
+    /// is requested.
     pub fn freeze(&self, stop: &Stop, bounded: &(impl Fn() + Sync)) -> Result<String, Error> {
         let days =
             KeptBounds::of_this_user().days(self.scenarios(stop)?, self.step()?, stop, bounded)?;

@@ -21,7 +21,8 @@ pub(crate) fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> 
     }
 }
 
-/// Appends rows with the first column aligned left and the others aligned right, and a rule below the first row.
+/// Appends rows with the first column aligned left and the others aligned right, and a rule below
+/// the first row.
 pub(crate) fn append_aligned(text: &mut String, rows: &[Vec<String>]) {
     let columns = rows.first().map_or(0, Vec::len);
     let widths: Vec<usize> = (0..columns)

@@ -11,9 +11,9 @@ use vertifleet_core::{
 
 use crate::small_day;
 
-/// Days of [`small_day`] with changing fares, corridors, separate chargers, forecasts, delays, closures, outages and
-/// passengers who wait, each of them on some days only. The numbers that proptest draws are used in turn, from the start
-/// again when they run out.
+/// Days of [`small_day`] with changing fares, corridors, separate chargers, forecasts, delays,
+/// closures, outages and passengers who wait, each of them on some days only. The numbers that
+/// proptest draws are used in turn, from the start again when they run out.
 pub fn extended_day() -> impl Strategy<Value = Arc<Scenario>> {
     let parts = prop::collection::vec(any::<bool>(), 7);
     // Periods of small days last an hour.

@@ -8,8 +8,8 @@ use vertifleet_core::{
     Vertiport, VertiportIx,
 };
 
-/// Days with 1 to 5 vertiports, 1 to 6 aircraft of 1 or 2 types and a few periods. Stands and demand are scarce, and
-/// some pairs are out of range.
+/// Days with 1 to 5 vertiports, 1 to 6 aircraft of 1 or 2 types and a few periods. Stands and
+/// demand are scarce, and some pairs are out of range.
 pub fn small_day() -> impl Strategy<Value = Arc<Scenario>> {
     (1_usize..=5, 1_usize..=6, 1_usize..=2, 1_usize..=4, any::<u64>())
         .prop_flat_map(|(vertiports, fleet, types, periods, seed)| {

@@ -1,4 +1,5 @@
-//! Small days of every kind, drawn from a number, for tests that search each day exhaustively or with a planner.
+//! Small days of every kind, drawn from a number, for tests that search each day exhaustively or
+//! with a planner.
 
 use std::sync::Arc;
 
@@ -20,8 +21,8 @@ pub struct Size {
     pub hours: u32,
 }
 
-/// A day of at most this size, with one or two types of aircraft, scarce stands, scarce or ample demand, changing
-/// prices, periods of any length, and pairs that are out of range.
+/// A day of at most this size, with one or two types of aircraft, scarce stands, scarce or ample
+/// demand, changing prices, periods of any length, and pairs that are out of range.
 pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(number);
     let size = random.random_range(1..=most.vertiports);
@@ -112,8 +113,9 @@ pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
     Arc::new(day.check("small day").expect("a day within the rules"))
 }
 
-/// A day of [`any_day`] with changing fares, corridors, separate chargers, delays, closures, outages and passengers who
-/// wait, each of them on some days only. The demand differs from the forecast.
+/// A day of [`any_day`] with changing fares, corridors, separate chargers, delays, closures,
+/// outages and passengers who wait, each of them on some days only. The demand differs from the
+/// forecast.
 pub fn any_extended_day(number: u64, most: Size) -> Arc<Scenario> {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(!number);
     let mut day = Scenario::clone(&any_day(number, most)).into_day();

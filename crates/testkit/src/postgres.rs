@@ -1,5 +1,5 @@
-//! A `PostgreSQL` server for tests of services that keep their data in one. Debian's packages bring it
-//! (`scripts/database`).
+//! A `PostgreSQL` server for tests of services that keep their data in one. Debian's packages bring
+//! it (`scripts/database`).
 
 use std::net::{TcpListener, TcpStream};
 use std::os::unix::fs::{PermissionsExt as _, chown};
@@ -61,7 +61,8 @@ impl Postgres {
         self.server = serve(self.folder.path(), self.port);
     }
 
-    /// Stops all processes of the server where they are, so that its connections stay open and nothing is answered.
+    /// Stops all processes of the server where they are, so that its connections stay open and
+    /// nothing is answered.
     pub fn freeze(&self) {
         self.signal("-STOP");
         self.signal_connections("-STOP");
@@ -84,8 +85,8 @@ impl Postgres {
         let _ = Command::new("kill").arg(signal).args(children.split_whitespace()).output();
     }
 
-    /// The first line of the file is the process that the server runs in, which is not the one that was started if another
-    /// user runs it.
+    /// The first line of the file is the process that the server runs in, which is not the one that
+    /// was started if another user runs it.
     fn pid(&self) -> String {
         let file = std::fs::read_to_string(self.folder.path().join("postmaster.pid"));
         file.unwrap_or_default().lines().next().unwrap_or_default().to_owned()
@@ -114,7 +115,8 @@ fn programs() -> PathBuf {
     found.pop().expect("PostgreSQL is installed: `scripts/database` installs it").join("bin")
 }
 
-/// A program of the server. It refuses to run as root, so root runs it as the user that the package makes.
+/// A program of the server. It refuses to run as root, so root runs it as the user that the package
+/// makes.
 fn command(program: &str) -> Command {
     let path = programs().join(program);
     if !is_root() {

@@ -26,7 +26,8 @@ pub fn draw(seed: u32, at: u32) -> usize {
     usize::try_from(hash >> 33).expect("31 bits")
 }
 
-/// A text that is cut, changed or repeated in one to three places, drawn from a number. It is never empty.
+/// A text that is cut, changed or repeated in one to three places, drawn from a number. It is never
+/// empty.
 pub fn spoilt(good: &[u8], seed: u32) -> Vec<u8> {
     let mut text = good.to_vec();
     for change in 0..=u32::try_from(draw(seed, 0) % 3).expect("few") {

@@ -9,7 +9,8 @@ use crate::typed::{parse_known, parse_pair, parse_vertiport};
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum NetworkAction {
-    /// Make a network file from data of your own: vertiports, demand or trip records, corridors, fares
+    /// Make a network file from data of your own: vertiports, demand or trip records, corridors,
+    /// fares
     Import(Box<ImportArguments>),
     /// Say everything that is wrong with network files
     Check {
@@ -22,12 +23,15 @@ pub(crate) enum NetworkAction {
     },
     /// Show what a network holds
     Show {
-        /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
+        /// Network file, the name of a shipped network (paper, disrupted, new-york, large,
+        /// as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or
+        /// random-places:SIZE:NUMBER
         network: String,
         /// Draw a map and the demand by hour; the ending of the file says whether as SVG or PNG
         #[arg(long, value_name = "FILE")]
         picture: Option<PathBuf>,
-        /// Replace a file that this program did not write or that is read-only; never what the command reads
+        /// Replace a file that this program did not write or that is read-only; never what the
+        /// command reads
         #[arg(long)]
         force: bool,
         /// Print the network as JSON, with the mean demand of every pair and period
@@ -51,7 +55,8 @@ pub(crate) enum NetworkAction {
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("source").required(true).args(["demand", "trips"]))]
 pub(crate) struct ImportArguments {
-    /// Vertiports: CSV with id,latitude,longitude and perhaps stands,chargers,busy; or GeoJSON points
+    /// Vertiports: CSV with id,latitude,longitude and perhaps stands,chargers,busy; or GeoJSON
+    /// points
     #[arg(long, value_name = "FILE")]
     pub(crate) vertiports: PathBuf,
     /// Mean passengers: CSV or Parquet with period,from,to,passengers
@@ -60,7 +65,8 @@ pub(crate) struct ImportArguments {
     /// Trip records, CSV or Parquet, with times and places; zones need --zones
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub(crate) trips: Vec<PathBuf>,
-    /// Columns of the trip records that have names of their own, as pickup_time=began,passengers=riders
+    /// Columns of the trip records that have names of their own, as
+    /// pickup_time=began,passengers=riders
     #[arg(long, value_name = "VALUE=COLUMN", value_delimiter = ',', value_parser = parse_trip_column)]
     pub(crate) trip_columns: Vec<(TripValue, String)>,
     /// Where the zones of the trip records are: CSV with zone,latitude,longitude, or GeoJSON
@@ -72,7 +78,8 @@ pub(crate) struct ImportArguments {
     /// Share of the trips near vertiports that would fly [default: 0.01]
     #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     pub(crate) mode_share: Option<f64>,
-    /// Distance to and from vertiports over which that share falls to 1/e, miles [default: it does not fall]
+    /// Distance to and from vertiports over which that share falls to 1/e, miles [default: it does
+    /// not fall]
     #[arg(long, value_name = "MILES", allow_hyphen_values = true)]
     pub(crate) decay: Option<f64>,
     /// Days of the week that count, as Mon,Tue,Wed [default: all]
@@ -84,7 +91,8 @@ pub(crate) struct ImportArguments {
     /// Last date that counts
     #[arg(long, value_name = "DATE", value_parser = parse_known::<Date>)]
     pub(crate) last_date: Option<Date>,
-    /// How the times of trip records are written, as '%d/%m/%Y %H:%M', '%m/%d/%Y %I:%M:%S %p', epoch-s or epoch-ms
+    /// How the times of trip records are written, as '%d/%m/%Y %H:%M', '%m/%d/%Y %I:%M:%S %p',
+    /// epoch-s or epoch-ms
     #[arg(long, value_name = "FORMAT", value_parser = parse_known::<TimeFormat>)]
     pub(crate) time_format: Option<TimeFormat>,
     /// Corridors that may be flown: GeoJSON lines with from and to
@@ -96,10 +104,12 @@ pub(crate) struct ImportArguments {
     /// Prices of electricity: CSV with period,price_usd_per_kwh
     #[arg(long, value_name = "FILE")]
     pub(crate) energy_prices: Option<PathBuf>,
-    /// The network that everything else is taken from: aircraft, fleet, operations, tariffs, disturbances
+    /// The network that everything else is taken from: aircraft, fleet, operations, tariffs,
+    /// disturbances
     #[arg(long, value_name = "NETWORK", default_value = "new-york")]
     pub(crate) base: String,
-    /// Number of aircraft, shared out among the types of the base's fleet [default: as many as the base has]
+    /// Number of aircraft, shared out among the types of the base's fleet [default: as many as the
+    /// base has]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub(crate) aircraft: Option<u32>,
     /// Time zone of the network's clocks, as America/New_York [default: none]
@@ -111,7 +121,8 @@ pub(crate) struct ImportArguments {
     /// The network file
     #[arg(short, long, value_name = "FILE", required_unless_present = "dry_run")]
     pub(crate) output: Option<PathBuf>,
-    /// Write no file: print what became of the trip records, with the first row that was dropped for each reason
+    /// Write no file: print what became of the trip records, with the first row that was dropped
+    /// for each reason
     #[arg(long, conflicts_with_all = ["output", "force"])]
     pub(crate) dry_run: bool,
     /// Replace the file if it is there
@@ -123,8 +134,9 @@ pub(crate) struct ImportArguments {
 }
 
 impl ImportArguments {
-    /// The flags in use that say how trip records become demand, and say nothing of a table of demand. Rules of the
-    /// parser cannot refuse them: it drops the demand for `--trips` where `--demand` excludes it.
+    /// The flags in use that say how trip records become demand, and say nothing of a table of
+    /// demand. Rules of the parser cannot refuse them: it drops the demand for `--trips` where
+    /// `--demand` excludes it.
     pub(crate) fn flags_of_trips(&self) -> Vec<&'static str> {
         let flags = [
             ("--trip-columns", !self.trip_columns.is_empty()),

@@ -1,4 +1,5 @@
-//! The arguments of what planners ask: sweeps, days explained, and days in the formats of other programs.
+//! The arguments of what planners ask: sweeps, days explained, and days in the formats of other
+//! programs.
 
 use std::path::PathBuf;
 
@@ -18,13 +19,15 @@ use crate::typed::{
 
 #[derive(Debug, Args)]
 pub(crate) struct SweepArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded,
+    /// san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
     pub(crate) network: String,
-    /// A member of the network file and its values, as fleet.0.count=30..50/5 or tariffs.fare_level=0.8,1,1.2; may be given
-    /// several times
+    /// A member of the network file and its values, as fleet.0.count=30..50/5 or
+    /// tariffs.fare_level=0.8,1,1.2; may be given several times
     #[arg(long, value_name = "PATH=VALUES", required = true, value_parser = parse_factor)]
     pub(crate) vary: Vec<Factor>,
-    /// Draw a Latin hypercube of this many cells in place of all combinations; ranges then need no step
+    /// Draw a Latin hypercube of this many cells in place of all combinations; ranges then need no
+    /// step
     #[arg(long, value_name = "CELLS")]
     pub(crate) latin: Option<usize>,
     /// Policies, separated by commas, as compare takes them; designs are judged by the first
@@ -36,7 +39,8 @@ pub(crate) struct SweepArguments {
     /// Seed of the first day, of the random policy and of the Latin hypercube
     #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: u64,
-    /// Whose days: comparison, validation or training; with the latter two, the seed is the number of the first day
+    /// Whose days: comparison, validation or training; with the latter two, the seed is the number
+    /// of the first day
     #[arg(long, default_value = "comparison", value_parser = parse_split)]
     pub(crate) split: Purpose,
     /// Weights for a policy name; may be given several times
@@ -45,10 +49,12 @@ pub(crate) struct SweepArguments {
     /// Prove an upper bound of every day
     #[arg(long)]
     pub(crate) bound: bool,
-    /// Longest price interval of the bounds, minutes, 1 to 60; shorter is never looser and takes longer
+    /// Longest price interval of the bounds, minutes, 1 to 60; shorter is never looser and takes
+    /// longer
     #[arg(long, value_name = "MIN", default_value_t = 5, requires = "bound", allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
-    /// Folder of the sweep: finished cells, tables, figures and a report page; a sweep that ended early goes on in it
+    /// Folder of the sweep: finished cells, tables, figures and a report page; a sweep that ended
+    /// early goes on in it
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
     /// Print the results as JSON
@@ -61,15 +67,16 @@ pub(crate) struct SweepArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct SizeArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
+    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded,
+    /// san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
     pub(crate) network: String,
-    /// profit; served=0.95 or another share of those who want to fly, with the least cost; zero-spill, which is served=1; or
-    /// least-spill
+    /// profit; served=0.95 or another share of those who want to fly, with the least cost;
+    /// zero-spill, which is served=1; or least-spill
     #[arg(long, default_value = "profit", value_parser = parse_goal)]
     pub(crate) goal: Goal,
-    /// What may vary, as fleet.*.count=10..60, vertiports.JFK.stands=4..12/2, or a setting of all designs, as
-    /// tariffs.aircraft_cost_usd_per_day=900; may be given several times [default: all aircraft, stands and chargers, up to
-    /// twice the file; for least-spill not the aircraft]
+    /// What may vary, as fleet.*.count=10..60, vertiports.JFK.stands=4..12/2, or a setting of all
+    /// designs, as tariffs.aircraft_cost_usd_per_day=900; may be given several times [default: all
+    /// aircraft, stands and chargers, up to twice the file; for least-spill not the aircraft]
     #[arg(long, value_name = "PATH=VALUES", value_parser = parse_factor)]
     pub(crate) vary: Vec<Factor>,
     /// The policy that plays the days, as compare takes it
@@ -81,19 +88,22 @@ pub(crate) struct SizeArguments {
     /// Seed of the first day and of the random policy
     #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: u64,
-    /// Whose days: comparison, validation or training; with the latter two, the seed is the number of the first day
+    /// Whose days: comparison, validation or training; with the latter two, the seed is the number
+    /// of the first day
     #[arg(long, default_value = "comparison", value_parser = parse_split)]
     pub(crate) split: Purpose,
     /// Weights of a learned policy [default: the shipped ones of the network]
     #[arg(long, value_name = "PATH", value_parser = PathBufValueParser::new().map(PolicySource::File))]
     pub(crate) model: Option<PolicySource>,
-    /// Longest price interval of the bounds, minutes, 1 to 60; shorter gives a tighter certificate and takes longer
+    /// Longest price interval of the bounds, minutes, 1 to 60; shorter gives a tighter certificate
+    /// and takes longer
     #[arg(long, value_name = "MIN", default_value_t = 60, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
     /// The most designs to play
     #[arg(long, value_name = "NUMBER", default_value_t = 40)]
     pub(crate) designs: usize,
-    /// Folder of the search: designs, a report page and the network file of the best one; a search that ended early goes on in it
+    /// Folder of the search: designs, a report page and the network file of the best one; a search
+    /// that ended early goes on in it
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
     /// Print the results as JSON
@@ -175,7 +185,8 @@ pub(crate) struct ExportArguments {
     /// The time zone of the day's clock, by its name in the IANA database
     #[arg(long, value_name = "ZONE", default_value = "UTC", requires = "date")]
     pub(crate) time_zone: String,
-    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    /// Replace a file that this program did not write or that is read-only; never what the command
+    /// reads
     #[arg(long)]
     pub(crate) force: bool,
 }
@@ -193,13 +204,15 @@ pub(crate) struct ExplainArguments {
     /// Weights of a learned policy [default: the shipped ones of the scenario's network]
     #[arg(long, value_name = "PATH", value_parser = PathBufValueParser::new().map(PolicySource::File))]
     pub(crate) model: Option<PolicySource>,
-    /// Longest price interval of the bounds, minutes, 1 to 60; shorter is never looser and takes longer
+    /// Longest price interval of the bounds, minutes, 1 to 60; shorter is never looser and takes
+    /// longer
     #[arg(long, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
     /// Write the page of the day with its bound and what changes are worth to this HTML file
     #[arg(long, value_name = "FILE")]
     pub(crate) report: Option<PathBuf>,
-    /// Replace a file that this program did not write or that is read-only; never what the command reads
+    /// Replace a file that this program did not write or that is read-only; never what the command
+    /// reads
     #[arg(long)]
     pub(crate) force: bool,
     /// Print the explanation as JSON

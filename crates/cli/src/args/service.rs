@@ -28,13 +28,16 @@ pub(crate) struct ServeArguments {
     /// A proxy that speaks TLS stands before the service, which may then listen on other addresses
     #[arg(long, conflicts_with = "certificate")]
     pub(crate) behind_proxy: bool,
-    /// Send spans of requests to this collector of OpenTelemetry [default: OTEL_EXPORTER_OTLP_ENDPOINT, or to none]
+    /// Send spans of requests to this collector of OpenTelemetry [default:
+    /// OTEL_EXPORTER_OTLP_ENDPOINT, or to none]
     #[arg(long, value_name = "URL")]
     pub(crate) otlp: Option<String>,
-    /// Show this base map in the console instead of the bundled one: a style of MapLibre, or a PMTiles file
+    /// Show this base map in the console instead of the bundled one: a style of MapLibre, or a
+    /// PMTiles file
     #[arg(long, value_name = "URL")]
     pub(crate) basemap: Option<String>,
-    /// Show simulated, disturbed days of New York at 60 times their speed, one after the other, and keep nothing
+    /// Show simulated, disturbed days of New York at 60 times their speed, one after the other, and
+    /// keep nothing
     #[arg(long, conflicts_with_all = ["data", "database", "certificate", "behind_proxy"])]
     pub(crate) demo: bool,
     #[command(subcommand)]

@@ -109,7 +109,8 @@ fn mean_bound(days: &[Day<'_>]) -> Mean {
     Mean::of(&days.iter().map(|day| day.bound.upper_bound_usd()).collect::<Vec<_>>())
 }
 
-/// The mean bound without foresight, and by how much it is below the mean bound; `None` if it was not asked for.
+/// The mean bound without foresight, and by how much it is below the mean bound; `None` if it was
+/// not asked for.
 fn mean_without_foresight(days: &[Day<'_>]) -> Option<(Mean, Mean)> {
     let without: Option<Vec<f64>> = days.iter().map(|day| day.without_foresight_usd).collect();
     let without = without.filter(|without| !without.is_empty())?;

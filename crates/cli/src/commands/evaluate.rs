@@ -1,4 +1,5 @@
-//! `vertifleet evaluate`: plays suites and random networks, measures shares of their certified bounds, and verifies results.
+//! `vertifleet evaluate`: plays suites and random networks, measures shares of their certified
+//! bounds, and verifies results.
 
 use std::collections::BTreeMap;
 use std::path::Path;

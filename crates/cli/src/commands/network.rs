@@ -21,8 +21,8 @@ use crate::interrupt::end_on_interrupt;
 use crate::output::{print, warn};
 use crate::typed::parse_vertiport;
 
-/// A network file may have been edited since it was written, so that one which is there is never replaced without being
-/// asked to: no file begins like this.
+/// A network file may have been edited since it was written, so that one which is there is never
+/// replaced without being asked to: no file begins like this.
 const NEW_FILE: OutputKind = OutputKind { name: "new network file", skipped: 0, opening: "\0" };
 
 /// The steps of the progress of an import.
@@ -159,7 +159,8 @@ fn trip_columns(named: &[(TripValue, String)]) -> Result<TripColumns<'_>, Failur
     Ok(columns)
 }
 
-/// Prints every finding about some network files. The exit code is that of bad input if any of them cannot be used.
+/// Prints every finding about some network files. The exit code is that of bad input if any of them
+/// cannot be used.
 fn check(files: &[PathBuf], as_json: bool) -> Result<ExitCode, Failure> {
     let (mut lines, mut list, mut errors) = (Vec::new(), Vec::new(), 0);
     for file in files {
@@ -270,7 +271,8 @@ fn ask_vertiport(text: &str) -> Result<Option<NewVertiport>, String> {
     if text.is_empty() { Ok(None) } else { parse_vertiport(text).map(Some) }
 }
 
-/// Asks a person for what no flag gives, until the answer can be used. Without a terminal the flag is asked for.
+/// Asks a person for what no flag gives, until the answer can be used. Without a terminal the flag
+/// is asked for.
 fn ask<T>(flag: &str, what: &str, read: impl Fn(&str) -> Result<T, String>) -> Result<T, Failure> {
     loop {
         if !stdin().is_terminal() {

@@ -1,5 +1,5 @@
-//! `vertifleet plan`: searches for the best schedule of a known day, while the proof of an upper bound runs in
-//! parallel.
+//! `vertifleet plan`: searches for the best schedule of a known day, while the proof of an upper
+//! bound runs in parallel.
 
 use std::process::ExitCode;
 use std::sync::Arc;

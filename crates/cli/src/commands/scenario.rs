@@ -40,7 +40,8 @@ fn draw_days(
     folder: &Path,
     outputs: &mut Outputs,
 ) -> Result<(), Failure> {
-    // The last seed is checked first, so that nothing is written if one of the days cannot be drawn.
+    // The last seed is checked first, so that nothing is written if one of the days cannot be
+    // drawn.
     DaySeed::comparison(seed.saturating_add(u64::from(days) - 1))?;
     if folder.exists() {
         for day in 0..u64::from(days) {

@@ -95,8 +95,8 @@ fn protection(arguments: &ServeArguments) -> Protection {
     }
 }
 
-/// The collector that spans are sent to: the one of the command line, or else that of the variable by which every program
-/// with OpenTelemetry is told.
+/// The collector that spans are sent to: the one of the command line, or else that of the variable
+/// by which every program with OpenTelemetry is told.
 fn collector(arguments: &ServeArguments) -> Option<String> {
     let told = || std::env::var("OTEL_EXPORTER_OTLP_ENDPOINT").ok().filter(|url| !url.is_empty());
     arguments.otlp.clone().or_else(told)

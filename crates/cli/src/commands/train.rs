@@ -1,4 +1,5 @@
-//! `vertifleet train`: runs a training, shows its progress, and writes weights, learning curve and checkpoint.
+//! `vertifleet train`: runs a training, shows its progress, and writes weights, learning curve and
+//! checkpoint.
 
 use std::process::ExitCode;
 

@@ -94,7 +94,8 @@ fn several_days_are_bounded_with_means() {
     near(&found["mean"]["upper_bound_usd"], of("upper_bound_usd"));
     for (id, mean) in found["mean"]["stand_shadow_price_usd"].as_object().expect("vertiports") {
         near(mean, days.iter().map(|day| number(&day["stand_shadow_price_usd"][id])).collect());
-        // The vertiport has chargers beside its other stands, and the bound does not tell the two apart.
+        // The vertiport has chargers beside its other stands, and the bound does not tell the two
+        // apart.
         assert_eq!(mean, &found["mean"]["charger_shadow_price_usd"][id]);
     }
     assert_eq!(days[0]["charger_shadow_price_usd"], days[0]["stand_shadow_price_usd"]);
@@ -283,7 +284,8 @@ fn a_page_replays_the_day_that_was_simulated() {
     let exported = fs::read_to_string(at.join("occupancy.svg")).expect("a picture");
     assert!(page.contains(&exported), "the page shows what export writes");
 
-    // The trace of the page is that of the file, rounded to the cent, and still a schedule that the checker takes.
+    // The trace of the page is that of the file, rounded to the cent, and still a schedule that the
+    // checker takes.
     let (text, exact) =
         (day["plays"][0]["trace"].as_str().expect("text"), fs::read_to_string(at.join("day.csv")));
     let choices = |text: &str| -> Vec<String> {

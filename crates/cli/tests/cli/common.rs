@@ -1,4 +1,5 @@
-//! What tests of misuse share: a folder with files of every kind, small enough that commands are soon done.
+//! What tests of misuse share: a folder with files of every kind, small enough that commands are
+//! soon done.
 
 use std::fs;
 use std::path::{Path, PathBuf};

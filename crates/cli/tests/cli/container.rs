@@ -30,7 +30,8 @@ fn the_container_is_built_from_all_that_the_program_has_within_it() {
     for package in fs::read_dir(root.join("crates")).expect("the crates") {
         files(&package.expect("an entry").path().join("src"), &mut sources);
     }
-    // What is compiled in is named by its way from the source file, which leads out of the crate and into a folder here.
+    // What is compiled in is named by its way from the source file, which leads out of the crate
+    // and into a folder here.
     let without_tests = sources.iter().filter_map(|source| source.split("#[cfg(test)]").next());
     let paths = without_tests.flat_map(|source| source.split('"').skip(1).step_by(2));
     let paths = paths.filter(|path| path.starts_with("../")).map(|path| path.replace("../", ""));

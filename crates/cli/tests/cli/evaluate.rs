@@ -1,4 +1,5 @@
-//! Evaluations from the command line: results are written, verified, and stand in the book as the program prints them.
+//! Evaluations from the command line: results are written, verified, and stand in the book as the
+//! program prints them.
 
 use std::fs;
 use std::path::Path;

@@ -1,8 +1,8 @@
-//! Tests with a full disk: a command that cannot write ends with V102, the earlier files are unchanged, and no
-//! incomplete file is left.
+//! Tests with a full disk: a command that cannot write ends with V102, the earlier files are
+//! unchanged, and no incomplete file is left.
 //!
-//! Two kinds of full disk are tried: a limit on the length of files, which every Unix has and which stops writing in
-//! the middle of a file, and a small file system, if this user may mount one.
+//! Two kinds of full disk are tried: a limit on the length of files, which every Unix has and which
+//! stops writing in the middle of a file, and a small file system, if this user may mount one.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -32,8 +32,8 @@ fn train(out: &str) -> String {
     )
 }
 
-/// Runs the program with a limit on the length of files: `blocks` blocks of 512 bytes, or of 1,024 bytes in some
-/// shells.
+/// Runs the program with a limit on the length of files: `blocks` blocks of 512 bytes, or of 1,024
+/// bytes in some shells.
 fn with_short_files(at: &Path, blocks: u32, arguments: &str) -> Output {
     let program = env!("CARGO_BIN_EXE_vertifleet");
     let script = format!("ulimit -f {blocks}; exec {program} {arguments}");
@@ -50,8 +50,8 @@ fn refuses(output: &Output, arguments: &str) {
     assert!(!said.contains("panicked"), "{arguments}: {said}");
 }
 
-/// All files except TensorBoard's event files. These grow during a run, and a run goes on if they cannot be written, so
-/// they do not count as results.
+/// All files except TensorBoard's event files. These grow during a run, and a run goes on if they
+/// cannot be written, so they do not count as results.
 fn results(at: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let events = |path: &Path| path.components().any(|part| part.as_os_str() == "tensorboard");
     contents(at).into_iter().filter(|(path, _)| !events(path)).collect()

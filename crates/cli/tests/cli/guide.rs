@@ -1,4 +1,5 @@
-//! The commands of the guide "Plan a city in an hour" do what the guide says, on fewer days and designs than there.
+//! The commands of the guide "Plan a city in an hour" do what the guide says, on fewer days and
+//! designs than there.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,8 +7,8 @@ use std::process::Command;
 
 use assert_cmd::cargo::cargo_bin;
 
-/// Smaller arguments than those of the guide, to save time. The test checks that the commands succeed, not the guide's
-/// figures.
+/// Smaller arguments than those of the guide, to save time. The test checks that the commands
+/// succeed, not the guide's figures.
 const SMALLER: [(&str, &str); 3] =
     [("--days 5", "--days 2"), ("--days 3", "--days 2"), ("--designs 16", "--designs 3")];
 

@@ -1,4 +1,5 @@
-//! The figures of the guides "Your first hour" and "A day of operations" are those that the program gives.
+//! The figures of the guides "Your first hour" and "A day of operations" are those that the program
+//! gives.
 
 use std::fs;
 use std::path::Path;
@@ -24,7 +25,8 @@ fn words(line: &str) -> Vec<&str> {
     (0..all.len()).filter(|at| !is_duration(*at)).map(|at| all[at]).collect()
 }
 
-/// The lines of a page's block that the program does not print. `...` stands for lines or words that are left out.
+/// The lines of a page's block that the program does not print. `...` stands for lines or words
+/// that are left out.
 fn missing<'a>(block: &'a str, output: &str) -> Vec<&'a str> {
     let printed: Vec<Vec<&str>> = output.lines().map(words).collect();
     let is_printed = |line: &str| {

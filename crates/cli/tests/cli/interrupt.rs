@@ -1,5 +1,5 @@
-//! Tests of Ctrl-C: a training ends cleanly, and the resumed run goes on as if it had not been interrupted; a
-//! comparison and a proof end at once and leave no incomplete files.
+//! Tests of Ctrl-C: a training ends cleanly, and the resumed run goes on as if it had not been
+//! interrupted; a comparison and a proof end at once and leave no incomplete files.
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -15,8 +15,9 @@ use signal_hook::flag;
 const TRAIN: &str = "train --network paper --policy mlp --seed 5 --steps 6000 --set n_envs=4 --set n_steps=25 \
                      --set batch_size=100 --set n_epochs=1 --set eval_days=1 --set eval_every=20 --threads 1";
 
-/// The program, with signals enabled even if this test process was started with signals ignored, as in the background
-/// of a script. Children inherit ignored signals, but not handled ones, so this process registers handlers.
+/// The program, with signals enabled even if this test process was started with signals ignored, as
+/// in the background of a script. Children inherit ignored signals, but not handled ones, so this
+/// process registers handlers.
 fn vertifleet(folder: &Path, arguments: &str) -> Command {
     let end = Arc::new(AtomicBool::new(true));
     for signal in [SIGINT, SIGTERM, SIGHUP] {
@@ -43,8 +44,8 @@ fn send(signal: &str, child: &Child) {
     assert!(Command::new("sh").args(["-c", &signal]).status().expect("a shell").success());
 }
 
-/// Checks that Ctrl-C ends a program whose work would take many minutes, with the exit code of an interrupted program and
-/// nothing on stdout.
+/// Checks that Ctrl-C ends a program whose work would take many minutes, with the exit code of an
+/// interrupted program and nothing on stdout.
 fn ends_at_once(child: Child) {
     press_ctrl_c(&child);
     let pressed = Instant::now();
@@ -149,8 +150,8 @@ fn a_comparison_ended_by_ctrl_c_leaves_whole_bounds_and_no_report() {
     let asked = "compare --network paper --policies rolling --days 400 --seed 1 --bound --step 60";
     let compare = |report: &str| vertifleet(folder.path(), &format!("{asked} --report {report}"));
     let mut child = compare("new/report").spawn().expect("the program runs");
-    // When some of the bounds exist, the command is still computing the others, and has long been listening for
-    // signals.
+    // When some of the bounds exist, the command is still computing the others, and has long been
+    // listening for signals.
     while names(&kept).iter().filter(|name| name.starts_with("bound-")).count() < 5 {
         assert!(child.try_wait().expect("a child").is_none(), "it ended before it began");
         sleep(Duration::from_millis(1));
@@ -163,8 +164,8 @@ fn a_comparison_ended_by_ctrl_c_leaves_whole_bounds_and_no_report() {
     }
 }
 
-/// Runs a command that reads a file called `pipe`, and gives it this text through that pipe. When the command has read
-/// the text, it listens for signals and begins to work.
+/// Runs a command that reads a file called `pipe`, and gives it this text through that pipe. When
+/// the command has read the text, it listens for signals and begins to work.
 fn begin(folder: &Path, arguments: &str, text: &[u8]) -> Child {
     let pipe = folder.join("pipe");
     assert!(Command::new("mkfifo").arg(&pipe).status().expect("a command").success());
@@ -194,8 +195,8 @@ fn a_proof_ended_by_ctrl_c_says_nothing() {
     ends_at_once(begin(folder.path(), "bound pipe --step 1", &day));
 }
 
-/// Some signals are ignored at the start of the program, as they are under `nohup`, or in the background of a shell
-/// without job control.
+/// Some signals are ignored at the start of the program, as they are under `nohup`, or in the
+/// background of a shell without job control.
 #[cfg(target_os = "linux")]
 #[test]
 fn what_is_ignored_at_the_start_stays_ignored() {

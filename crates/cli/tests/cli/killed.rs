@@ -1,5 +1,6 @@
-//! Tests with `kill -9` at any moment: every file is complete, with either its old or its new content. Unfinished files
-//! have names that begin with `.vertifleet-`, and nothing takes them for results.
+//! Tests with `kill -9` at any moment: every file is complete, with either its old or its new
+//! content. Unfinished files have names that begin with `.vertifleet-`, and nothing takes them for
+//! results.
 
 use std::fs;
 use std::path::Path;
@@ -27,9 +28,10 @@ fn finished(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Runs the command to its end once, and then kills it in five further runs, at moments spread over the time that the
-/// first run took. `check` looks at the folder after each run. The moments are always the same shares of that time, but
-/// what the program is doing at each moment depends on the machine.
+/// Runs the command to its end once, and then kills it in five further runs, at moments spread over
+/// the time that the first run took. `check` looks at the folder after each run. The moments are
+/// always the same shares of that time, but what the program is doing at each moment depends on the
+/// machine.
 fn kill_on_the_way(at: &Path, arguments: &str, mut check: impl FnMut(&Path)) {
     let begun = Instant::now();
     run(at, arguments);
@@ -145,8 +147,8 @@ fn a_training_is_whole_whenever_the_program_is_killed() {
     );
     let first = "--steps 400";
     run(folder.path(), &format!("{} --out run", train.replace("--steps 800", first)));
-    // Each run is a new one, and its files replace those of the run before. The checkpoint is the exception: it has to
-    // be removed by hand.
+    // Each run is a new one, and its files replace those of the run before. The checkpoint is the
+    // exception: it has to be removed by hand.
     let train = format!("{train} --out run");
     fs::remove_file(folder.path().join("run/mlp-checkpoint.safetensors")).expect("a checkpoint");
     kill_on_the_way(folder.path(), &train, |at| {

@@ -1,5 +1,5 @@
-//! Tests of about a hundred and fifty wrong commands. Each command must say what is wrong, end with exit code 2 (1 if
-//! the arguments were right), leave every file unchanged, and create none.
+//! Tests of about a hundred and fifty wrong commands. Each command must say what is wrong, end with
+//! exit code 2 (1 if the arguments were right), leave every file unchanged, and create none.
 
 use crate::misuses;
 use std::fs;
@@ -69,7 +69,8 @@ fn prepared() -> tempfile::TempDir {
     folder
 }
 
-/// Checks that a misuse is answered by an orderly error message, with the right exit code and no panic.
+/// Checks that a misuse is answered by an orderly error message, with the right exit code and no
+/// panic.
 fn is_in_control(at: &Path, misuse: &Misuse) -> Result<(), String> {
     let (arguments, code, named) = *misuse;
     let output = vertifleet(at, arguments).output().expect("the program runs");
@@ -153,7 +154,8 @@ fn two_results_never_go_to_one_file() {
         assert!(said.contains("error[V142]") && said.contains(named), "{said}");
     }
     assert!(fs::read(at.join("trace.csv")).expect("a trace") == before);
-    // A pipe has no content that could be overwritten, so the trace and the printed results may both go to it.
+    // A pipe has no content that could be overwritten, so the trace and the printed results may
+    // both go to it.
     let output = run(at, "simulate day.json --policy greedy --trace /dev/stdout");
     let text = String::from_utf8(output.stdout).expect("text");
     assert!(text.starts_with("time,aircraft") && text.contains("load factor"), "{text}");

@@ -1,4 +1,5 @@
-//! The misuses: arguments, exit code, and what the answer names. Files are those of `prepared` in `misuse.rs`.
+//! The misuses: arguments, exit code, and what the answer names. Files are those of `prepared` in
+//! `misuse.rs`.
 
 /// Arguments, exit code, and what the answer names.
 pub(crate) type Misuse = (&'static str, i32, &'static str);

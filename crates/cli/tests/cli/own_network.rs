@@ -1,5 +1,6 @@
-//! Tests of a user's own network, with its own table of demand and its own costs, from the network file to the plan,
-//! and of the messages about a file of the wrong kind and a vertiport out of reach.
+//! Tests of a user's own network, with its own table of demand and its own costs, from the network
+//! file to the plan, and of the messages about a file of the wrong kind and a vertiport out of
+//! reach.
 
 use std::fs;
 use std::path::Path;
@@ -56,7 +57,8 @@ fn a_day_of_a_network_with_a_table_and_costs_is_played_checked_bounded_and_plann
     own_network(at);
     said(at, "scenario own.toml --seed 3 -o day.json", 0);
     let played = json(at, "simulate day.json --policy greedy --trace day.csv --json");
-    // A trace that this program wrote is replaced without `--force`, even if it has the column of flight costs.
+    // A trace that this program wrote is replaced without `--force`, even if it has the column of
+    // flight costs.
     json(at, "simulate day.json --policy greedy --trace day.csv --json");
     let report = json(at, "check day.json day.csv --json");
     assert_eq!(report["valid"], true, "{report}");

@@ -1,5 +1,5 @@
-//! What a planner does with the program: makes a network of data of their own, looks at it, asks what a change is worth,
-//! and takes a day along.
+//! What a planner does with the program: makes a network of data of their own, looks at it, asks
+//! what a change is worth, and takes a day along.
 
 use std::fs;
 use std::path::Path;

@@ -1,7 +1,8 @@
-//! The disk is full, and has room again: no acknowledged event is lost, and the service goes on without a restart.
+//! The disk is full, and has room again: no acknowledged event is lost, and the service goes on
+//! without a restart.
 //!
-//! The disk is a small one in memory, which the operating system lets us mount in a namespace of our own. Where it does
-//! not, the test says so and ends.
+//! The disk is a small one in memory, which the operating system lets us mount in a namespace of
+//! our own. Where it does not, the test says so and ends.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

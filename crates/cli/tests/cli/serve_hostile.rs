@@ -1,5 +1,5 @@
-//! A client that means harm: thousands of connections that say nothing, thousands of streams, requests that no one would
-//! send. Others are served meanwhile.
+//! A client that means harm: thousands of connections that say nothing, thousands of streams,
+//! requests that no one would send. Others are served meanwhile.
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;

@@ -1,6 +1,7 @@
-//! The service is killed again and again while clients write. Every event that it acknowledged is there afterwards, once
-//! and in its order: with the data in a folder, with the data in `PostgreSQL` that two instances share, and in a folder
-//! where writing fails at random moments too. Half of the events are equal in every respect, and all clients send them.
+//! The service is killed again and again while clients write. Every event that it acknowledged is
+//! there afterwards, once and in its order: with the data in a folder, with the data in
+//! `PostgreSQL` that two instances share, and in a folder where writing fails at random moments
+//! too. Half of the events are equal in every respect, and all clients send them.
 //!
 //! `VERTIFLEET_KILLS` sets the number of kills of each test, for long runs (`make soak`).
 
@@ -18,8 +19,8 @@ use vertifleet_testkit::{Postgres, draw};
 const CLIENTS: usize = 4;
 /// Days that they write to by turns.
 const DAYS: usize = 2;
-/// After so many kills all events are looked at, and new days begin: reading long days again after each kill would take
-/// most of the time.
+/// After so many kills all events are looked at, and new days begin: reading long days again after
+/// each kill would take most of the time.
 const KILLS_OF_A_ROUND: u32 = 50;
 
 fn kills() -> u32 {
@@ -50,7 +51,8 @@ struct Outcome {
     refused: AtomicU32,
 }
 
-/// A request with a key, sent again until it is acknowledged, as a client should. `None` if it was told to stop before.
+/// A request with a key, sent again until it is acknowledged, as a client should. `None` if it was
+/// told to stop before.
 struct Client<'a> {
     agent: ureq::Agent,
     stop: &'a AtomicBool,
@@ -68,7 +70,8 @@ fn booked() -> Value {
 type Acknowledged = (usize, u64, String);
 
 impl Client<'_> {
-    /// Sends a request to the first of these instances, and again to the next ones for as long as it is not acknowledged.
+    /// Sends a request to the first of these instances, and again to the next ones for as long as
+    /// it is not acknowledged.
     fn post(&self, instances: &[&str], path: &str, key: &str, body: &Value) -> Option<Value> {
         for address in instances.iter().cycle() {
             if self.stop.load(Ordering::Relaxed) {
@@ -95,7 +98,8 @@ impl Client<'_> {
         None
     }
 
-    /// Writes events until it is told to stop: in turn one with a mark of its own, and one that all clients send.
+    /// Writes events until it is told to stop: in turn one with a mark of its own, and one that all
+    /// clients send.
     fn write(&self, client: usize, instances: &[&str], days: &[String]) -> Vec<Acknowledged> {
         let mut acknowledged = Vec::new();
         for number in 0.. {
@@ -286,8 +290,8 @@ fn no_acknowledged_event_is_lost_when_instances_that_share_a_database_are_killed
     Trial { name: "PostgreSQL", data: ["--database", &url], instances: 2, meanwhile }.run();
 }
 
-/// Lets writing fail now and then: a file may not grow beyond a length that is drawn each time, so that a write ends at
-/// any byte. The service may be killed before files may grow again.
+/// Lets writing fail now and then: a file may not grow beyond a length that is drawn each time, so
+/// that a write ends at any byte. The service may be killed before files may grow again.
 #[cfg(target_os = "linux")]
 fn let_writes_fail(service: &Service, kill: u32, time: Duration) {
     const LONGEST: usize = 1 << 22;

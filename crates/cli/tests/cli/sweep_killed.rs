@@ -1,4 +1,5 @@
-//! `vertifleet sweep` as users run it: killed again and again, it ends with the same bytes as if it had not been.
+//! `vertifleet sweep` as users run it: killed again and again, it ends with the same bytes as if it
+//! had not been.
 
 use std::collections::BTreeMap;
 use std::fs;

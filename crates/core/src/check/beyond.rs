@@ -1,4 +1,5 @@
-//! The rules for the parts of a day that go beyond the paper: corridors, forecasts, delays, closures, outages.
+//! The rules for the parts of a day that go beyond the paper: corridors, forecasts, delays,
+//! closures, outages.
 
 use super::{Check, entry_count, span};
 use crate::limits::{self, entries};

@@ -1,4 +1,5 @@
-//! A day's passengers of each pair, spread over the periods by shares, as a market study or a survey gives them.
+//! A day's passengers of each pair, spread over the periods by shares, as a market study or a
+//! survey gives them.
 
 use serde::Deserialize;
 

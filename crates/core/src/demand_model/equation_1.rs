@@ -1,4 +1,5 @@
-//! Eq. 1 (§III.C): how many passengers want to fly from i to j in a period, as a normal distribution.
+//! Eq. 1 (§III.C): how many passengers want to fly from i to j in a period, as a normal
+//! distribution.
 
 use serde::Deserialize;
 

@@ -1,4 +1,5 @@
-//! Uniform demand: for every pair and period, each whole number of passengers from a least to a most is equally likely.
+//! Uniform demand: for every pair and period, each whole number of passengers from a least to a
+//! most is equally likely.
 
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

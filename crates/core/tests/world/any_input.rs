@@ -1,4 +1,5 @@
-//! Gives the readers arbitrary input: they never panic, and everything that they accept obeys every rule.
+//! Gives the readers arbitrary input: they never panic, and everything that they accept obeys every
+//! rule.
 
 use proptest::prelude::{Just, Strategy, any, prop, prop_oneof, proptest};
 use proptest::test_runner::Config;

@@ -1,5 +1,5 @@
-//! Tests of the parts of days that go beyond the paper: files hold them, networks draw them, and everything else stays
-//! as it was.
+//! Tests of the parts of days that go beyond the paper: files hold them, networks draw them, and
+//! everything else stays as it was.
 
 use vertifleet_core::{
     AircraftIx, ClosedTimes, Closure, Coded, Day, DaySeed, Disturbances, Fares, Network, Outage,
@@ -20,8 +20,8 @@ closures = [
 outages = { probability = 0.2, least_s = 3600, most_s = 14400 }
 "#;
 
-/// A curfew at two vertiports, before and after the hours in which they may be used, and a fog that is not known in
-/// advance.
+/// A curfew at two vertiports, before and after the hours in which they may be used, and a fog that
+/// is not known in advance.
 const CLOSURES: &str = r#"
 [[closures]]
 start = "00:00:00"
@@ -315,8 +315,8 @@ fn disrupted_is_paper_with_disturbances() {
     assert_eq!(disrupted, paper);
 }
 
-/// Source: FHWA, Highway Statistics 2006, table NT-3: vehicle trips of a Wednesday by the hour in which they start,
-/// from midnight on.
+/// Source: FHWA, Highway Statistics 2006, table NT-3: vehicle trips of a Wednesday by the hour in
+/// which they start, from midnight on.
 const NT_3_WEDNESDAY: [u32; 24] = [
     147, 82, 83, 36, 249, 639, 1607, 3893, 2994, 2294, 2600, 2967, 3166, 3032, 3321, 3888, 3959,
     4377, 3746, 2819, 2061, 1559, 783, 381,

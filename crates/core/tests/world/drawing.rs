@@ -1,5 +1,5 @@
-//! Days drawn from networks: Eq. 1 holds, seeds mean what they should, and `paper` is the network that the model page
-//! describes.
+//! Days drawn from networks: Eq. 1 holds, seeds mean what they should, and `paper` is the network
+//! that the model page describes.
 
 #![expect(
     clippy::float_cmp,
@@ -34,8 +34,8 @@ fn a_shipped_name_and_its_file_are_one_network() {
     assert_eq!(file.draw(seed(3)), name.draw(seed(3)));
 }
 
-/// Regenerate with `INSTA_UPDATE=always cargo t -p vertifleet-core --test world drawing`. A change here means that every
-/// published figure and shipped model refers to other days.
+/// Regenerate with `INSTA_UPDATE=always cargo t -p vertifleet-core --test world drawing`. A change
+/// here means that every published figure and shipped model refers to other days.
 #[test]
 fn day_7_of_paper_is_this_one() {
     let text = paper().draw(seed(7)).to_json();
@@ -98,15 +98,16 @@ fn fares_of_paper_are_two_to_two_and_a_half_times_the_cost() {
         scenario.fare_usd.in_period(0)[(at(from), at(to))]
             / scenario.passenger_cost_usd[(at(from), at(to))]
     };
-    // The means of the day are (2 x 100 + 11 x 50) / 13 for busy pairs, (100 + 12 x 30) / 13 to or from busy
-    // vertiports, and 30 for the others.
+    // The means of the day are (2 x 100 + 11 x 50) / 13 for busy pairs, (100 + 12 x 30) / 13 to or
+    // from busy vertiports, and 30 for the others.
     assert!((ratio(0, 1) - 2.5).abs() < 1e-12);
     assert!((ratio(0, 4) - (2.0 + 0.5 * 460.0 / 750.0)).abs() < 1e-12);
     assert!((ratio(4, 0) - (2.0 + 0.5 * 460.0 / 750.0)).abs() < 1e-12);
     assert!((ratio(4, 5) - (2.0 + 0.5 * 390.0 / 750.0)).abs() < 1e-12);
 }
 
-/// Eq. 1 written a second time, row by row as in the paper. The result is mean and standard deviation.
+/// Eq. 1 written a second time, row by row as in the paper. The result is mean and standard
+/// deviation.
 fn row_of_equation_1(from_busy: bool, to_busy: bool, hour: u32) -> (f64, f64) {
     let (peak_1, peak_2) = (hour == 8, hour == 16);
     let rows = [
@@ -139,7 +140,8 @@ fn demand_has_the_means_and_deviations_of_equation_1() {
                 let (mean, sd) = row_of_equation_1(key.0, key.1, key.2);
                 assert_eq!(means[period][(from, to)], mean);
                 let of_cell = draws.clone().sum::<f64>() / DAYS as f64;
-                // Five standard errors over 728 cells are missed by chance in one run of 2,000; the seeds are fixed.
+                // Five standard errors over 728 cells are missed by chance in one run of 2,000; the
+                // seeds are fixed.
                 assert!(
                     (of_cell - mean).abs() < 5.0 * sd / (DAYS as f64).sqrt(),
                     "{key:?} {of_cell}"

@@ -1,4 +1,5 @@
-//! Scenario files: what is written reads back the same, a write is whole or not at all, warnings are found.
+//! Scenario files: what is written reads back the same, a write is whole or not at all, warnings
+//! are found.
 
 use std::fs;
 
@@ -87,8 +88,8 @@ fn a_write_follows_links_and_keeps_permissions() {
     assert_eq!(mode & 0o777, 0o640);
 }
 
-/// The glider flies the 40 miles from C to A with 16 kWh, and loses 17.5 % of the battery's capacity in 1.75 h of
-/// flight.
+/// The glider flies the 40 miles from C to A with 16 kWh, and loses 17.5 % of the battery's
+/// capacity in 1.75 h of flight.
 #[test]
 fn an_aircraft_that_reaches_no_other_vertiport_is_warned_about() {
     let with_battery = |kwh| {

@@ -1,5 +1,5 @@
-//! Demand by hour and pair: rows in the network file mean the same as a table beside it, and a network that was read
-//! with a table no longer needs it.
+//! Demand by hour and pair: rows in the network file mean the same as a table beside it, and a
+//! network that was read with a table no longer needs it.
 
 use std::fs;
 use std::path::Path;
@@ -51,7 +51,8 @@ fn a_table_is_what_its_rows_are_in_the_file() {
     assert_eq!(day(&with_table), day(&with_rows));
 }
 
-/// The table has the form that Excel on Windows writes: a byte order mark, CR LF, hours of one digit.
+/// The table has the form that Excel on Windows writes: a byte order mark, CR LF, hours of one
+/// digit.
 #[test]
 fn a_table_from_a_spreadsheet_is_the_same() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -1,5 +1,5 @@
-//! The mean of the draws is the mean asked for, however thin demand is, for every demand model but Eq. 1, which rounds
-//! as in the paper.
+//! The mean of the draws is the mean asked for, however thin demand is, for every demand model but
+//! Eq. 1, which rounds as in the paper.
 
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario, VertiportIx};
 
@@ -80,7 +80,8 @@ fn uniform_demand_has_its_mean() {
     assert!((found - 1.5).abs() <= 4.0 * (variance / DAYS as f64).sqrt(), "{found}");
 }
 
-/// A regression test: rounding to the nearest made 150 passengers a day 12, 400 became 230, and 1,000 became 883.
+/// A regression test: rounding to the nearest made 150 passengers a day 12, 400 became 230, and
+/// 1,000 became 883.
 #[test]
 fn new_york_has_so_many_passengers_a_day_as_are_asked() {
     assert!(NEW_YORK.contains("passengers = 8000\n"));
@@ -109,7 +110,8 @@ fn new_york_has_so_many_passengers_a_day_as_are_asked() {
     }
 }
 
-/// A surge by 30 % turns 1 passenger into 1.3, which rounding to the nearest would turn into 1 again.
+/// A surge by 30 % turns 1 passenger into 1.3, which rounding to the nearest would turn into 1
+/// again.
 #[test]
 fn a_surge_of_few_passengers_is_as_large_as_it_should_be() {
     for (forecast, noise) in [(1, 0.02), (2, 0.0), (3, 0.2)] {

@@ -1,5 +1,5 @@
-//! What planners change: fares to which passengers respond, costs of stands, corridors that are not straight, and days
-//! that stay comparable under such changes.
+//! What planners change: fares to which passengers respond, costs of stands, corridors that are not
+//! straight, and days that stay comparable under such changes.
 
 use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
 use serde_json::{Value, json};

@@ -1,5 +1,5 @@
-//! The networks of cities are what their sources say: positions are those of OurAirports (`networks/sources`), and every pair
-//! with demand is within range.
+//! The networks of cities are what their sources say: positions are those of OurAirports
+//! (`networks/sources`), and every pair with demand is within range.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,10 +8,12 @@ use vertifleet_core::{Matrix, Network, great_circle_mi};
 
 /// The networks whose sites are in `networks/sources/sites.csv`.
 const CITIES: [&str; 5] = ["san-francisco", "los-angeles", "dallas", "paris", "new-york"];
-/// 100 m, in miles. Positions in network files are rounded to about 1 m, those of `new-york` are from several places.
+/// 100 m, in miles. Positions in network files are rounded to about 1 m, those of `new-york` are
+/// from several places.
 const CLOSE_MI: f64 = 0.1 / 1.609_344;
 
-/// The rows of a table of `networks/sources`, without its head. No text in these tables has a comma but the last of a row.
+/// The rows of a table of `networks/sources`, without its head. No text in these tables has a comma
+/// but the last of a row.
 fn rows(table: &str, columns: usize) -> Vec<Vec<String>> {
     let path = format!("{}/../../networks/sources/{table}", env!("CARGO_MANIFEST_DIR"));
     let text = fs::read_to_string(path).expect("a table of the project");
@@ -64,8 +66,8 @@ fn every_aircraft_can_fly_every_pair_of_a_city() {
     }
 }
 
-/// 25 trips of each aircraft with its four seats taken, which is what `networks/sources/README.md` scales demand to. Means in
-/// the files are rounded to hundredths.
+/// 25 trips of each aircraft with its four seats taken, which is what `networks/sources/README.md`
+/// scales demand to. Means in the files are rounded to hundredths.
 #[test]
 fn a_hundred_passengers_a_day_want_to_fly_for_each_aircraft_of_a_made_network() {
     for city in &CITIES[..4] {

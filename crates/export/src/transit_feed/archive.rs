@@ -1,5 +1,5 @@
-//! The tables of a feed, and the ZIP archive that holds them. Neither has the time of its writing, so that the same day
-//! gives the same bytes.
+//! The tables of a feed, and the ZIP archive that holds them. Neither has the time of its writing,
+//! so that the same day gives the same bytes.
 
 use std::io::{Cursor, Write};
 
@@ -38,7 +38,8 @@ impl Archive {
         Self(ZipWriter::new(Cursor::new(Vec::new())))
     }
 
-    /// Adds a file as it is. The first file is added in this way, so that the archive can be recognised.
+    /// Adds a file as it is. The first file is added in this way, so that the archive can be
+    /// recognised.
     pub(super) fn add_uncompressed(&mut self, name: &str, table: Table) {
         self.write(name, table, options().compression_method(CompressionMethod::Stored));
     }

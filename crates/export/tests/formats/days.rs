@@ -42,8 +42,8 @@ pub(crate) fn calendar() -> Calendar {
     Calendar::new("2026-11-24", "America/New_York").expect("a calendar")
 }
 
-/// A day with two vertiports that lie 10 miles apart and one aircraft, which flies with passengers, holds, and comes
-/// back past midnight without any.
+/// A day with two vertiports that lie 10 miles apart and one aircraft, which flies with passengers,
+/// holds, and comes back past midnight without any.
 pub(crate) fn tiny() -> Played {
     let vertiport = |id: &str, x_mi: f64, latitude: f64, longitude: f64| Vertiport {
         id: id.to_owned(),
@@ -127,7 +127,8 @@ fn off_diagonal<T: Copy + Default>(cell: T) -> Matrix<T> {
     Matrix::from_fn(2, |from, to| if from == to { T::default() } else { cell })
 }
 
-/// Small days of every kind, played at random, on the globe, with ids of all characters that ids may have.
+/// Small days of every kind, played at random, on the globe, with ids of all characters that ids
+/// may have.
 pub(crate) fn any_played() -> impl Strategy<Value = Played> {
     let draws = prop::collection::vec(any::<u32>(), 1..40);
     // The letters of most errors are frequent; `\PC` is any character but control characters.

@@ -1,4 +1,5 @@
-//! GTFS: the feed is read back by another program's reader, and every reference in it leads somewhere.
+//! GTFS: the feed is read back by another program's reader, and every reference in it leads
+//! somewhere.
 
 use std::collections::HashMap;
 use std::io::{Cursor, Read};

@@ -1,4 +1,5 @@
-//! What the exports of a day promise: every flight of the trace, in a form that the readers of each format accept.
+//! What the exports of a day promise: every flight of the trace, in a form that the readers of each
+//! format accept.
 
 mod calendars;
 mod days;

@@ -1,4 +1,5 @@
-//! GeoJSON: one line a flight from vertiport to vertiport in increasing time, and one point a vertiport.
+//! GeoJSON: one line a flight from vertiport to vertiport in increasing time, and one point a
+//! vertiport.
 
 use geojson::{Feature, FeatureCollection, GeometryValue, Position};
 use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
@@ -43,7 +44,8 @@ fn an_aircraft_stays_at_its_vertiports_while_it_takes_off_and_lands() {
     let seconds: Vec<f64> = line.iter().map(|position| position.as_slice()[3]).collect();
     let departure: jiff::Timestamp = "2026-11-25T04:15:00Z".parse().expect("an instant");
     let after: Vec<f64> = seconds.iter().map(|s| s - departure.as_second() as f64).collect();
-    // 10 minutes of take-off, 6 minutes of cruise in 5 pieces of about 2 miles, 5 minutes of landing.
+    // 10 minutes of take-off, 6 minutes of cruise in 5 pieces of about 2 miles, 5 minutes of
+    // landing.
     assert_eq!(after, [0.0, 600.0, 672.0, 744.0, 816.0, 888.0, 960.0, 1260.0]);
     assert_eq!(line[0].as_slice()[..2], line[1].as_slice()[..2]);
     assert_eq!(line[6].as_slice()[..2], line[7].as_slice()[..2]);

@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use crate::date_time::Date;
 
-/// How many trip records were read, and what became of them. Each row has exactly one of the reasons, the first that
-/// applies in the order in which they stand here.
+/// How many trip records were read, and what became of them. Each row has exactly one of the
+/// reasons, the first that applies in the order in which they stand here.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TripAccount {
     /// The names of the files, without their folders.

@@ -1,8 +1,9 @@
 //! Trip records of a CSV file, in blocks of whole lines.
 //!
-//! One thread reads blocks while the others take records from the blocks before. A bounded queue lies between them, so
-//! that a few blocks are in memory at once, however long the file is. A line is a row: a row that is malformed, for
-//! example by a quote that is never closed, spoils no other row.
+//! One thread reads blocks while the others take records from the blocks before. A bounded queue
+//! lies between them, so that a few blocks are in memory at once, however long the file is. A line
+//! is a row: a row that is malformed, for example by a quote that is never closed, spoils no other
+//! row.
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
@@ -86,8 +87,8 @@ fn count(text: &[u8], wanted: u8) -> usize {
     text.iter().filter(|&&byte| byte == wanted).count()
 }
 
-/// The error that names the first line of a file that is not UTF-8. In which line a block begins is not known where blocks are
-/// read side by side, so the file is read once more.
+/// The error that names the first line of a file that is not UTF-8. In which line a block begins is
+/// not known where blocks are read side by side, so the file is read once more.
 fn not_text(path: &Path) -> Error {
     let origin = path.display().to_string();
     let mut line = 1;
@@ -152,7 +153,8 @@ struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// Sends all blocks, the first of which has been read already. Ends when they are no longer taken.
+    /// Sends all blocks, the first of which has been read already. Ends when they are no longer
+    /// taken.
     fn send(mut self, first: Block, blocks: &SyncSender<Result<Block, Error>>, stop: &Stop) {
         let mut next = Ok(Some(first));
         while !stop.is_requested() {
@@ -284,7 +286,8 @@ impl<'a> RowReader<'a> {
         })
     }
 
-    /// Whether a line has a value beyond the last column of the header, as where a decimal comma is not in quotes.
+    /// Whether a line has a value beyond the last column of the header, as where a decimal comma is
+    /// not in quotes.
     #[inline]
     fn has_too_many_values(&self, line: &[u8]) -> bool {
         // Commas in quotes make this number too large, but never too small.
@@ -342,7 +345,8 @@ pub(super) fn record<'row>(
     Record { position, row, time: cell(0), from, to, passengers }
 }
 
-/// The fields of a line, split at commas that are not in quotes. The quotes around a field are left out.
+/// The fields of a line, split at commas that are not in quotes. The quotes around a field are left
+/// out.
 struct Fields<'a> {
     rest: Option<&'a [u8]>,
 }
@@ -370,7 +374,8 @@ impl<'a> Iterator for Fields<'a> {
 }
 
 impl<'a> Fields<'a> {
-    /// A field that began with a quote. Two quotes in it stand for one, which no value that is read here has.
+    /// A field that began with a quote. Two quotes in it stand for one, which no value that is read
+    /// here has.
     fn quoted(&mut self, text: &'a [u8]) -> &'a [u8] {
         let mut at = 0;
         let end = loop {

@@ -3,12 +3,13 @@
 use crate::Error;
 use crate::header::{Header, Missing, Named};
 
-/// The names of the columns of trip records. A name that is absent is guessed from names that are in use, such as those
-/// of New York's taxi records and of bicycles for hire; capitals and small letters are the same.
+/// The names of the columns of trip records. A name that is absent is guessed from names that are
+/// in use, such as those of New York's taxi records and of bicycles for hire; capitals and small
+/// letters are the same.
 ///
-/// Places are read from the four columns of coordinates if these are there, and else from the two columns of zones. If
-/// only columns of zones are named, places are read from these. Where no column of passengers is there, each record is
-/// one passenger.
+/// Places are read from the four columns of coordinates if these are there, and else from the two
+/// columns of zones. If only columns of zones are named, places are read from these. Where no
+/// column of passengers is there, each record is one passenger.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct TripColumns<'a> {
     /// When the trip began.
@@ -231,7 +232,8 @@ impl Layout {
 struct Finder<'a> {
     columns: &'a TripColumns<'a>,
     header: Header<'a>,
-    /// Those of the file's columns that hold one of the values, which no other value was meant to be in.
+    /// Those of the file's columns that hold one of the values, which no other value was meant to
+    /// be in.
     used: Vec<usize>,
 }
 
@@ -244,7 +246,8 @@ impl<'a> Finder<'a> {
         Ok(finder)
     }
 
-    /// Where the column of a value stands: the named one, or the first of the usual names that is there.
+    /// Where the column of a value stands: the named one, or the first of the usual names that is
+    /// there.
     fn position(&self, value: TripValue) -> Option<usize> {
         match self.columns.named(value) {
             Some(name) => self.header.position(name),

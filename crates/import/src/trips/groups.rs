@@ -1,4 +1,5 @@
-//! Trip records of Parquet files, row group by row group. The row groups of all files are read by all threads.
+//! Trip records of Parquet files, row group by row group. The row groups of all files are read by
+//! all threads.
 
 use std::fs::File;
 use std::ops::Range;
@@ -18,8 +19,8 @@ use crate::zones::Zones;
 /// Rows after which a reader reports how far it has come.
 const STRETCH: u64 = 100_000;
 
-/// The most parts into which a file is cut. Each part opens the file again and reads the description of all its row groups, of
-/// which there may be thousands.
+/// The most parts into which a file is cut. Each part opens the file again and reads the
+/// description of all its row groups, of which there may be thousands.
 const MOST_PARTS: usize = 64;
 
 /// Consecutive row groups of a file.
@@ -72,8 +73,8 @@ pub(super) fn read(files: &[(usize, &Path)], reading: &Reading<'_>) -> Result<()
     parts.par_iter().try_for_each(|part| part.add(reading))
 }
 
-/// Opens a file and returns its length too. Each thread opens files anew, because handles of one opening share the
-/// position at which they read.
+/// Opens a file and returns its length too. Each thread opens files anew, because handles of one
+/// opening share the position at which they read.
 fn open(path: &Path) -> Result<(ParquetFile, u64), Error> {
     let cannot = |cause| cannot_read(path, cause);
     let file = File::open(path).map_err(cannot)?;

@@ -1,7 +1,8 @@
 //! The nearest vertiport within a radius of a place.
 //!
-//! The decision is the haversine distance's. It costs four sines and cosines, so it is taken only of vertiports around
-//! which a box of latitudes and longitudes holds the place. The box is the smallest that holds the circle of the radius.
+//! The decision is the haversine distance's. It costs four sines and cosines, so it is taken only
+//! of vertiports around which a box of latitudes and longitudes holds the place. The box is the
+//! smallest that holds the circle of the radius.
 
 use vertifleet_core::EARTH_RADIUS_MI;
 
@@ -34,13 +35,14 @@ struct Box {
 
 impl Nearby {
     pub(super) fn new(places: Vec<Place>, radius_mi: f64) -> Self {
-        // Boxes are a little larger than need be, so that no rounding leaves out a place at the edge of the circle.
+        // Boxes are a little larger than need be, so that no rounding leaves out a place at the
+        // edge of the circle.
         const ROOM: f64 = 1.0 + 1e-9;
         let angle = radius_mi / EARTH_RADIUS_MI;
         let vertiports = places.len();
         let around = |(vertiport, place): (usize, Place)| {
-            // Where a circle about latitude f is widest, sin(half width) = sin(angle) / cos(f). A circle that reaches a
-            // pole has all longitudes.
+            // Where a circle about latitude f is widest, sin(half width) = sin(angle) / cos(f). A
+            // circle that reaches a pole has all longitudes.
             let sine = libm::sin(angle) / libm::cos(place.latitude.to_radians());
             let reaches_pole = place.latitude.abs() + angle.to_degrees() >= 90.0;
             let half_width =
@@ -57,7 +59,8 @@ impl Nearby {
         self.vertiports
     }
 
-    /// The nearest vertiport within the radius of a place; of two that are equally near, the first in file order.
+    /// The nearest vertiport within the radius of a place; of two that are equally near, the first
+    /// in file order.
     #[inline]
     pub(super) fn of(&self, place: Place) -> Option<Near> {
         let lowest = place.latitude - self.half_height;

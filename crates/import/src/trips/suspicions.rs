@@ -12,12 +12,14 @@ use crate::Warning;
 use crate::date_time::Date;
 use crate::trip_times::FORMS;
 
-/// A date with fewer records than this share of the usual number is an error of a clock rather than a day.
+/// A date with fewer records than this share of the usual number is an error of a clock rather than
+/// a day.
 const HARDLY_ANY: f64 = 0.01;
 /// Bytes that are compared at once.
 const BLOCK: usize = 64 << 10;
 
-/// The warnings of these records. `converts` says whether instants are converted to a time zone, and `overlooked` are columns that are not read and may hold the passengers.
+/// The warnings of these records. `converts` says whether instants are converted to a time zone,
+/// and `overlooked` are columns that are not read and may hold the passengers.
 pub(super) fn warnings(
     trips: &Trips<'_>,
     tally: &Tally,

@@ -1,8 +1,9 @@
 //! Adds up trip records by pair and hour, and counts the records that are dropped by reason.
 //!
-//! Sums are whole multiples of 2^-30 passengers. Whole numbers add up to the same sum in any order, so the demand does
-//! not depend on how files are cut into blocks, nor on which thread reads which block, nor on the kind of file. What is
-//! rounded off each record is below a billionth of a passenger.
+//! Sums are whole multiples of 2^-30 passengers. Whole numbers add up to the same sum in any order,
+//! so the demand does not depend on how files are cut into blocks, nor on which thread reads which
+//! block, nor on the kind of file. What is rounded off each record is below a billionth of a
+//! passenger.
 
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
@@ -69,7 +70,8 @@ pub(super) struct Rules {
     pub(super) dates: RangeInclusive<Option<Date>>,
 }
 
-/// The hours of operations: periods that begin at the start of operations and at every full hour before their end.
+/// The hours of operations: periods that begin at the start of operations and at every full hour
+/// before their end.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hours {
     start: u32,
@@ -94,7 +96,8 @@ impl Hours {
         starts.take(self.count()).map(Time::from_seconds).collect()
     }
 
-    /// The period of a second, counted from the midnight before operations start, if it is within operations.
+    /// The period of a second, counted from the midnight before operations start, if it is within
+    /// operations.
     #[inline]
     fn period(self, second: u32) -> Option<usize> {
         let within = self.start <= second && second < self.end;
@@ -129,8 +132,8 @@ pub(super) struct Tally {
     dropped: [u64; REASONS],
     /// Number of valid records of each date that has any.
     dates: BTreeMap<Date, u64>,
-    /// The date of the latest records and their number, which is not in `dates` yet; most records have the date of the one
-    /// before.
+    /// The date of the latest records and their number, which is not in `dates` yet; most records
+    /// have the date of the one before.
     latest: Option<(Date, u64)>,
     signs: Signs,
 }
@@ -219,9 +222,9 @@ impl Tally {
         Ok((cell, (weight * UNITS).round() as u64))
     }
 
-    /// The date of the day of operations that a pick-up belongs to, and its period. The date counts as a day with
-    /// records, unless the pick-up is after midnight in operations that began on the day before: that day counts by the
-    /// records before midnight.
+    /// The date of the day of operations that a pick-up belongs to, and its period. The date counts
+    /// as a day with records, unless the pick-up is after midnight in operations that began on the
+    /// day before: that day counts by the records before midnight.
     #[inline]
     fn operating_day(
         &mut self,
@@ -323,7 +326,8 @@ impl Rules {
         }
     }
 
-    /// Whether both ends would be near a vertiport if their latitudes and longitudes were exchanged.
+    /// Whether both ends would be near a vertiport if their latitudes and longitudes were
+    /// exchanged.
     #[cold]
     fn are_exchanged(&self, from: End, to: End) -> bool {
         [from, to].into_iter().all(|end| match end {
@@ -352,7 +356,8 @@ impl<'a> Tallies<'a> {
         Self { rules, idle: Mutex::new(Vec::new()) }
     }
 
-    /// Lends a tally that no other thread is using. There are as many as threads have worked at once.
+    /// Lends a tally that no other thread is using. There are as many as threads have worked at
+    /// once.
     pub(super) fn with<T>(&self, add: impl FnOnce(&mut Tally, &Rules) -> T) -> T {
         let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let lent = idle().pop();

@@ -1,4 +1,5 @@
-//! Invented trip records, the same for the same seed, as CSV in the style of New York's taxi records and as Parquet.
+//! Invented trip records, the same for the same seed, as CSV in the style of New York's taxi
+//! records and as Parquet.
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -12,7 +13,8 @@ use parquet::schema::parser::parse_message_type;
 const FIRST_S: u64 = 1_433_116_800;
 const DAYS: u64 = 30;
 
-/// A trip, with coordinates in millionths of a degree so that both kinds of file hold the same numbers.
+/// A trip, with coordinates in millionths of a degree so that both kinds of file hold the same
+/// numbers.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Trip {
     pub(crate) pickup_s: u64,
@@ -53,7 +55,8 @@ impl Random {
     }
 }
 
-/// So many trips around these places (latitude and longitude), in the order of their times within a month.
+/// So many trips around these places (latitude and longitude), in the order of their times within a
+/// month.
 pub(crate) fn trips(around: &[(f64, f64)], count: u64, seed: u64) -> impl Iterator<Item = Trip> {
     let mut random = Random(seed);
     let all_s = DAYS * 86_400;

@@ -1,4 +1,5 @@
-//! What an import promises: networks from every kind of file, the same on every machine, and errors that say what to do.
+//! What an import promises: networks from every kind of file, the same on every machine, and errors
+//! that say what to do.
 
 mod any_input;
 mod errors;

@@ -17,7 +17,8 @@ use crate::planner::{Folder, new_york, request, run, run_table, run_trips};
 
 type Group<'a, 'b> = SerializedRowGroupWriter<'a, &'b mut Vec<u8>>;
 
-/// Writes the next column; of an optional column the values are those of the rows where `present` is 1.
+/// Writes the next column; of an optional column the values are those of the rows where `present`
+/// is 1.
 fn column<T: DataType>(group: &mut Group<'_, '_>, values: &[T::T], present: Option<&[i16]>) {
     let mut column = group.next_column().expect("a file").expect("a column");
     column.typed::<T>().write_batch(values, present, None).expect("written");
@@ -54,7 +55,8 @@ fn times(per_second: i64) -> [i64; 2] {
     SECONDS.map(|second| second * per_second)
 }
 
-/// Imports two trips from zone 12 to Kennedy of which the second has no passengers, with the first column as given.
+/// Imports two trips from zone 12 to Kennedy of which the second has no passengers, with the first
+/// column as given.
 fn two_trips(
     time_type: &str,
     zone_type: &str,

@@ -1,4 +1,5 @@
-//! Files as planners really have them: what can be read is read, and what cannot is refused or warned of by name.
+//! Files as planners really have them: what can be read is read, and what cannot is refused or
+//! warned of by name.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

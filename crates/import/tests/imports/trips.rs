@@ -1,5 +1,5 @@
-//! Demand from trip records: the same from both kinds of file and on any number of threads, and the same as a simple
-//! computation of it.
+//! Demand from trip records: the same from both kinds of file and on any number of threads, and the
+//! same as a simple computation of it.
 
 use std::collections::{BTreeSet, HashMap};
 use std::fs::File;
@@ -257,7 +257,8 @@ fn zones_are_found_by_number_or_name_at_their_middles() {
             r#"{{"type":"Feature","properties":{{{zone}}},"geometry":{{"type":"Polygon","coordinates":[{rings}]}}}}"#
         )
     };
-    // The first zone has two parts, whose middle together is JRB, and a name beside its number, as in New York.
+    // The first zone has two parts, whose middle together is JRB, and a name beside its number, as
+    // in New York.
     let zones = folder.file(
         "zones.geojson",
         map(&[

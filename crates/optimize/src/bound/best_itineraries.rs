@@ -1,5 +1,6 @@
-//! What the fleet would do at given prices: every aircraft takes the itinerary through the day that is worth most to
-//! it. Where more or less is then asked for than is available, prices should rise or fall.
+//! What the fleet would do at given prices: every aircraft takes the itinerary through the day that
+//! is worth most to it. Where more or less is then asked for than is available, prices should rise
+//! or fall.
 
 use super::certificate::{Certificate, earnings};
 use super::itinerary::Itinerary;
@@ -19,13 +20,15 @@ struct Ready {
     layer: usize,
     at: usize,
     second: u32,
-    /// Whether it still has to pay for knowing the delays of the slot, because it did not decide in it before.
+    /// Whether it still has to pay for knowing the delays of the slot, because it did not decide in
+    /// it before.
     owes: bool,
 }
 
 impl BestItineraries<'_> {
-    /// The best itinerary of each group, which is the aircraft of one layer that start alike, and their number. Where
-    /// passengers choose between flights with several prices, those of each part of the market are a group too.
+    /// The best itinerary of each group, which is the aircraft of one layer that start alike, and
+    /// their number. Where passengers choose between flights with several prices, those of each
+    /// part of the market are a group too.
     pub(super) fn of_groups(&self) -> Vec<(u32, Itinerary)> {
         let layers = self.day.layers.iter().enumerate();
         let groups =
@@ -92,7 +95,8 @@ impl BestItineraries<'_> {
         Ready { at, second, owes: second as usize >= past_slot, ..ready }
     }
 
-    /// An aircraft that may wait freely after it has waited for as long as being ready later is worth as much.
+    /// An aircraft that may wait freely after it has waited for as long as being ready later is
+    /// worth as much.
     fn waits(&self, mut ready: Ready) -> Ready {
         while self.day.layers[ready.layer].waits_freely && ready.second < self.day.slices.day_s() {
             let later = self.goes_on(ready, ready.at, 1);
@@ -105,7 +109,8 @@ impl BestItineraries<'_> {
         ready
     }
 
-    /// The first flight in file order whose worth equals that of being ready in a slice, after a payment.
+    /// The first flight in file order whose worth equals that of being ready in a slice, after a
+    /// payment.
     fn best_flight(&self, ready: Ready, payment: i64, slice: usize) -> Option<&Flight> {
         let paid = |at| self.certificate.paid(self.day, slice, at);
         let here = self.worth_less_paid(ready) + payment + paid(ready.at);

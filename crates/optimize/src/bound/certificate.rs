@@ -1,12 +1,13 @@
 //! The certificate: prices prove a bound in exact whole numbers, however they were found.
 //!
-//! Let aircraft pay for the stands that they take, and sell their flights to the passengers. Give back the price of every
-//! stand once, and the surplus of the passengers (`market.rs`). A schedule that keeps to the limits pays no more for stands
-//! than is given back, and its passengers bring no more beyond what they pay than their surplus. The amount given back plus
-//! the most that each aircraft can earn at these prices is therefore at least the profit of any schedule (Lagrangian
-//! relaxation; docs/src/concepts/bound.md has the proof). The most that an aircraft can earn is a longest path through
-//! vertiports and whole seconds, found from the end of the day back to its start. Flights and holds last exactly as long on
-//! this path as in the simulator.
+//! Let aircraft pay for the stands that they take, and sell their flights to the passengers. Give
+//! back the price of every stand once, and the surplus of the passengers (`market.rs`). A schedule
+//! that keeps to the limits pays no more for stands than is given back, and its passengers bring no
+//! more beyond what they pay than their surplus. The amount given back plus the most that each
+//! aircraft can earn at these prices is therefore at least the profit of any schedule (Lagrangian
+//! relaxation; docs/src/concepts/bound.md has the proof). The most that an aircraft can earn is a
+//! longest path through vertiports and whole seconds, found from the end of the day back to its
+//! start. Flights and holds last exactly as long on this path as in the simulator.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -17,22 +18,25 @@ use vertifleet_core::Stop;
 /// Seconds that are computed side by side, so that their worths so far stay in the fastest memory.
 const SIDE_BY_SIDE: usize = 256;
 
-/// The bound that prices prove, and the worth of being ready anywhere at any time at these prices. It is evaluated
-/// again and again without a new allocation.
+/// The bound that prices prove, and the worth of being ready anywhere at any time at these prices.
+/// It is evaluated again and again without a new allocation.
 #[derive(Debug, Clone)]
 pub(super) struct Certificate {
-    /// Price of a stand from the first slice until each slice begins and the last one ends, by slice, then vertiport.
+    /// Price of a stand from the first slice until each slice begins and the last one ends, by
+    /// slice, then vertiport.
     paid: Vec<i64>,
-    /// The worth of being ready, *less* the price of the stand since the day began, so that the payment from one second
-    /// to another is one subtraction. By layer, vertiport, second of the day, and as many seconds past its end as are
-    /// ever read.
+    /// The worth of being ready, *less* the price of the stand since the day began, so that the
+    /// payment from one second to another is one subtraction. By layer, vertiport, second of the
+    /// day, and as many seconds past its end as are ever read.
     ///
-    /// A day has at most 7,202 slices (36 hours in minutes, 1,440 more where periods begin, as many where passengers have
-    /// waited long enough, and 2,161 where slots of delays begin). An aircraft flies at most 2,161 times, a flight earns at
-    /// most 1,000 x 10^12, and a stand costs at most 10^14 a slice, so every entry is below 2^62.
+    /// A day has at most 7,202 slices (36 hours in minutes, 1,440 more where periods begin, as many
+    /// where passengers have waited long enough, and 2,161 where slots of delays begin). An
+    /// aircraft flies at most 2,161 times, a flight earns at most 1,000 x 10^12, and a stand costs
+    /// at most 10^14 a slice, so every entry is below 2^62.
     worth_less_paid: Vec<i64>,
-    /// On a day with a penalty, `worth_less_paid` is the worth to an aircraft that comes from an earlier slot and still has
-    /// to pay, and this is the worth to one that decided in the same slot before. Empty on other days.
+    /// On a day with a penalty, `worth_less_paid` is the worth to an aircraft that comes from an
+    /// earlier slot and still has to pay, and this is the worth to one that decided in the same
+    /// slot before. Empty on other days.
     within_slot: Vec<i64>,
     /// Distance from a vertiport to the next in `worth_less_paid`.
     stride: usize,
@@ -53,8 +57,8 @@ impl Certificate {
         }
     }
 
-    /// Computes the bound that `prices` prove, micro-dollars, before the cost of the fleet is deducted. Returns `None`
-    /// soon after `stopped` is requested.
+    /// Computes the bound that `prices` prove, micro-dollars, before the cost of the fleet is
+    /// deducted. Returns `None` soon after `stopped` is requested.
     pub(super) fn evaluate(
         &mut self,
         day: &TimeExpandedDay,
@@ -82,9 +86,9 @@ impl Certificate {
         self.paid[slice * day.size() + at]
     }
 
-    /// The worth of being ready, less the price of the stand since the day began; micro-dollars. `second` counts from
-    /// the first take-off time. Past the last one nothing can be earned, and the stand is paid for until the last slice
-    /// ends.
+    /// The worth of being ready, less the price of the stand since the day began; micro-dollars.
+    /// `second` counts from the first take-off time. Past the last one nothing can be earned, and
+    /// the stand is paid for until the last slice ends.
     #[inline]
     pub(super) fn worth_less_paid(
         &self,
@@ -108,7 +112,8 @@ impl Certificate {
         &self.worth_less_paid[(layer * day.size() + at) * self.stride..][second..self.stride]
     }
 
-    /// The worth to an aircraft that decided in the same slot before, less the price of the stand since the day began.
+    /// The worth to an aircraft that decided in the same slot before, less the price of the stand
+    /// since the day began.
     #[inline]
     pub(super) fn worth_within_slot(
         &self,
@@ -130,7 +135,8 @@ impl Certificate {
         }
     }
 
-    /// The most that the whole fleet earns after payments. Nothing has been paid when the day begins.
+    /// The most that the whole fleet earns after payments. Nothing has been paid when the day
+    /// begins.
     fn fleet(&self, day: &TimeExpandedDay) -> i128 {
         let layers = day.layers.iter().enumerate();
         let starts =
@@ -173,7 +179,8 @@ impl WithSimd for LayerPass<'_> {
             }
         }
         let second = |slice| (slices.start_s(slice) - slices.start_s(0)) as usize;
-        // No flight and no hold begins and ends in the same piece, so everything that a piece needs has been computed.
+        // No flight and no hold begins and ends in the same piece, so everything that a piece needs
+        // has been computed.
         let longest = SIDE_BY_SIDE.min(self.day.shortest_s as usize);
         for slice in (0..slices.len()).rev() {
             let (first, mut past) = (second(slice), second(slice + 1));
@@ -199,7 +206,8 @@ impl LayerPass<'_> {
         self.paid[slice * self.day.size() + at]
     }
 
-    /// Computes the seconds from `begin` until before `past`, all of which are in `slice`, from the seconds after them.
+    /// Computes the seconds from `begin` until before `past`, all of which are in `slice`, from the
+    /// seconds after them.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn work_out_piece(&mut self, slice: usize, from: usize, begin: usize, past: usize) {
@@ -232,8 +240,8 @@ impl LayerPass<'_> {
         }
     }
 
-    /// Raises each entry of `best` to the worth of another choice: `gain`, plus the worth at `to` from `ready` on. Before
-    /// `past_slot` nothing more has to be paid there.
+    /// Raises each entry of `best` to the worth of another choice: `gain`, plus the worth at `to`
+    /// from `ready` on. Before `past_slot` nothing more has to be paid there.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn raise(&self, best: &mut [i64], to: usize, ready: usize, past_slot: usize, gain: i64) {
@@ -257,8 +265,8 @@ fn raise_to(best: &mut [i64], worths: &[i64], gain: i64) {
     }
 }
 
-/// Being ready is worth no less than being ready a second later at the same vertiport: apart from the price of the
-/// stand, waiting is free. `later` is the worth after the last of these seconds.
+/// Being ready is worth no less than being ready a second later at the same vertiport: apart from
+/// the price of the stand, waiting is free. `later` is the worth after the last of these seconds.
 fn wait_freely(worths: &mut [i64], mut later: i64) {
     for worth in worths.iter_mut().rev() {
         later = later.max(*worth);

@@ -1,12 +1,13 @@
-//! The search for good prices, step by step: a proximal bundle method, with a bundle of itineraries for each group of
-//! like aircraft.
+//! The search for good prices, step by step: a proximal bundle method, with a bundle of itineraries
+//! for each group of like aircraft.
 //!
-//! Around the best prices so far, the model (`master.rs`) finds prices that would be better if there were no
-//! itineraries but those known so far, and predicts the fall of the bound. The prices are evaluated. The itineraries
-//! that are worth most at them are new to the model and are added to it. Where the bound falls by a good part of the
-//! prediction, the model moves to the new prices and reaches farther; where it rises, the model reaches less far. This
-//! is a stabilised column generation (G. Dantzig and P. Wolfe, *Decomposition principle for linear programs*,
-//! Operations Research 8, 1960; K. Kiwiel, *Proximity control in bundle methods for convex nondifferentiable
+//! Around the best prices so far, the model (`master.rs`) finds prices that would be better if
+//! there were no itineraries but those known so far, and predicts the fall of the bound. The prices
+//! are evaluated. The itineraries that are worth most at them are new to the model and are added to
+//! it. Where the bound falls by a good part of the prediction, the model moves to the new prices
+//! and reaches farther; where it rises, the model reaches less far. This is a stabilised column
+//! generation (G. Dantzig and P. Wolfe, *Decomposition principle for linear programs*, Operations
+//! Research 8, 1960; K. Kiwiel, *Proximity control in bundle methods for convex nondifferentiable
 //! minimization*, Mathematical Programming 46, 1990).
 
 use vertifleet_core::Stop;
@@ -18,29 +19,31 @@ use super::master::{Groups, Master};
 use super::prices::{Pace, Prices};
 use super::time_expanded_day::TimeExpandedDay;
 
-/// How often each group may shift its aircraft before prices are evaluated. Continuing until no shift is left costs
-/// more time than it gains.
+/// How often each group may shift its aircraft before prices are evaluated. Continuing until no
+/// shift is left costs more time than it gains.
 const ROUNDS: u32 = 3;
 /// The model has settled when shifts are worth less than this share of its last prediction.
 const SETTLED: f64 = 0.05;
-/// The reach is multiplied by `FARTHER` after prices that were better by more than the share `KEPT` of the prediction,
-/// by `NEARER` after worse ones, and by `MUCH_NEARER` after prices that were worse by more than the whole prediction.
+/// The reach is multiplied by `FARTHER` after prices that were better by more than the share `KEPT`
+/// of the prediction, by `NEARER` after worse ones, and by `MUCH_NEARER` after prices that were
+/// worse by more than the whole prediction.
 const KEPT: f64 = 0.05;
 const FARTHER: f64 = 2.0;
 const NEARER: f64 = 0.98;
 const MUCH_NEARER: f64 = 0.8;
-/// A model that predicts too little reaches farther by this factor, at most this many times, before the prediction is
-/// believed.
+/// A model that predicts too little reaches farther by this factor, at most this many times, before
+/// the prediction is believed.
 const FAR: f64 = 3.0;
 const FAR_TRIES: u32 = 4;
 /// The greatest reach. Reaching farther than any price can go changes nothing.
 const FARTHEST: f64 = 1e15;
-/// The search ends when this many steps lowered the bound by less than `enough`, or when the model predicts for one
-/// step less than this multiple of it.
+/// The search ends when this many steps lowered the bound by less than `enough`, or when the model
+/// predicts for one step less than this multiple of it.
 const WINDOW: u32 = 40;
 const PROMISED: f64 = 3.0;
 
-/// The fall that is too small to continue for while aircraft are planned one after another, micro-dollars.
+/// The fall that is too small to continue for while aircraft are planned one after another,
+/// micro-dollars.
 const A_DOLLAR: f64 = 1e6;
 
 /// The settings of one part of the search.
@@ -54,8 +57,8 @@ pub(super) struct Descent {
     pub(super) enough: f64,
 }
 
-/// The best prices of a descent, and the bound that they prove on the clock of its day before what the day costs anyway is
-/// deducted, micro-dollars.
+/// The best prices of a descent, and the bound that they prove on the clock of its day before what
+/// the day costs anyway is deducted, micro-dollars.
 pub(super) struct Found {
     pub(super) prices: Prices,
     pub(super) micro_usd: i128,
@@ -69,8 +72,9 @@ impl Found {
 }
 
 impl Descent {
-    /// Searches for prices from `start` on. `watch` is called with the best prices so far after every evaluation, and
-    /// returns whether to continue. Returns `None` if `stopped` is requested before the first evaluation is done.
+    /// Searches for prices from `start` on. `watch` is called with the best prices so far after
+    /// every evaluation, and returns whether to continue. Returns `None` if `stopped` is requested
+    /// before the first evaluation is done.
     pub(super) fn run(
         self,
         day: &TimeExpandedDay,
@@ -100,8 +104,8 @@ pub(super) struct Bundle<'a> {
 }
 
 impl<'a> Bundle<'a> {
-    /// A model whose first step aims at the fall that the descent's settings ask for. Returns `None` if `stopped` is
-    /// requested.
+    /// A model whose first step aims at the fall that the descent's settings ask for. Returns
+    /// `None` if `stopped` is requested.
     pub(super) fn begin(
         descent: Descent,
         (day, pace): (&'a TimeExpandedDay, &'a Pace),
@@ -118,8 +122,8 @@ impl<'a> Bundle<'a> {
         Some(bundle)
     }
 
-    /// The model of a day on which some of the aircraft of `groups` have been planned. Returns `None` if `stopped` is
-    /// requested.
+    /// The model of a day on which some of the aircraft of `groups` have been planned. Returns
+    /// `None` if `stopped` is requested.
     pub(super) fn resume(
         (day, pace): (&'a TimeExpandedDay, &'a Pace),
         start: &Prices,
@@ -134,7 +138,8 @@ impl<'a> Bundle<'a> {
         Self::around(day, start, model, stopped)
     }
 
-    /// A model that is made of the itineraries that are worth most at some prices, and those prices as the best so far.
+    /// A model that is made of the itineraries that are worth most at some prices, and those prices
+    /// as the best so far.
     fn around(
         day: &'a TimeExpandedDay,
         start: &Prices,
@@ -173,8 +178,8 @@ impl<'a> Bundle<'a> {
         watch(&self.best);
     }
 
-    /// Evaluates the model's prices. Returns whether to continue: not if the model promises too little, or `stopped` is
-    /// requested.
+    /// Evaluates the model's prices. Returns whether to continue: not if the model promises too
+    /// little, or `stopped` is requested.
     fn step(&mut self, stopped: &Stop) -> bool {
         if !self.promises_enough() {
             return false;
@@ -193,7 +198,8 @@ impl<'a> Bundle<'a> {
         true
     }
 
-    /// Finds the model's prices, and returns whether they may lower the bound by enough to continue.
+    /// Finds the model's prices, and returns whether they may lower the bound by enough to
+    /// continue.
     fn promises_enough(&mut self) -> bool {
         let (best, enough) = (self.best.micro_usd as f64, self.enough);
         let mut unsettled = self.master.settle(ROUNDS, SETTLED * self.promised);

@@ -1,9 +1,9 @@
 //! A bound for every design of a network: any fleet, and any number of stands and chargers.
 //!
-//! The prices of one bound (`prices.rs`) prove more than this bound. What an aircraft earns at most after it has paid,
-//! and what a stand costs over the day, depend on neither the number of aircraft nor that of stands. So the same prices
-//! bound the day with any number of them, by a sum in which every aircraft and every stand counts alike
-//! (docs/src/concepts/bound.md, "Other designs").
+//! The prices of one bound (`prices.rs`) prove more than this bound. What an aircraft earns at most
+//! after it has paid, and what a stand costs over the day, depend on neither the number of aircraft
+//! nor that of stands. So the same prices bound the day with any number of them, by a sum in which
+//! every aircraft and every stand counts alike (docs/src/concepts/bound.md, "Other designs").
 
 use std::iter::Sum;
 use std::ops::AddAssign;
@@ -19,8 +19,9 @@ use super::prices::Prices;
 use super::time_expanded_day::TimeExpandedDay;
 use crate::Error;
 
-/// What a day can earn at most before fixed costs, with any number of aircraft of each type, wherever they start, and any
-/// number of stands and chargers. Several of them add up to one for several days with the same designs.
+/// What a day can earn at most before fixed costs, with any number of aircraft of each type,
+/// wherever they start, and any number of stands and chargers. Several of them add up to one for
+/// several days with the same designs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DesignBound {
     /// The surplus of the passengers, micro-dollars.
@@ -32,8 +33,8 @@ pub struct DesignBound {
 }
 
 impl DesignBound {
-    /// What can be earned at most before fixed costs with `aircraft` of each type and `places` at each vertiport, stands
-    /// and chargers together; dollars.
+    /// What can be earned at most before fixed costs with `aircraft` of each type and `places` at
+    /// each vertiport, stands and chargers together; dollars.
     pub fn upper_bound_usd(&self, aircraft: &[u32], places: &[u32]) -> f64 {
         let of_all = |worths: &[i128], numbers: &[u32]| -> i128 {
             worths.iter().zip(numbers).map(|(&worth, &number)| worth * i128::from(number)).sum()
@@ -77,11 +78,13 @@ impl Sum for DesignBound {
 }
 
 impl Bound {
-    /// The bound of all designs that the prices of this bound prove. `scenario` is the day of the bound; `may_fail` says
-    /// whether aircraft of other designs may have outages, as they may on any day of a network that has them.
+    /// The bound of all designs that the prices of this bound prove. `scenario` is the day of the
+    /// bound; `may_fail` says whether aircraft of other designs may have outages, as they may on
+    /// any day of a network that has them.
     ///
     /// # Errors
-    /// [`Error::TooManyFlights`] if the day with aircraft of every type is too large for the bound's step.
+    /// [`Error::TooManyFlights`] if the day with aircraft of every type is too large for the
+    /// bound's step.
     ///
     /// # Panics
     /// If `scenario` is not the day of the bound.
@@ -110,8 +113,9 @@ impl Bound {
     }
 }
 
-/// The day with one aircraft of each type. Where aircraft may fail, each of them has an outage, whatever happens on the day
-/// itself: other fleets may have theirs anywhere, and an aircraft with an outage is worth no less (`time_expanded_day.rs`).
+/// The day with one aircraft of each type. Where aircraft may fail, each of them has an outage,
+/// whatever happens on the day itself: other fleets may have theirs anywhere, and an aircraft with
+/// an outage is worth no less (`time_expanded_day.rs`).
 fn one_of_each_type(scenario: &Scenario, may_fail: bool) -> Scenario {
     let mut day = scenario.clone().into_day();
     let types = day.aircraft_types.len();
@@ -130,8 +134,8 @@ fn one_of_each_type(scenario: &Scenario, may_fail: bool) -> Scenario {
     day.check("a day with one aircraft of each type").expect("a day within the rules")
 }
 
-/// The same day on which each passenger pays one dollar and nothing costs anything: its bound is the number of
-/// passengers that can be carried at most.
+/// The same day on which each passenger pays one dollar and nothing costs anything: its bound is
+/// the number of passengers that can be carried at most.
 pub fn day_of_passengers(scenario: &Scenario) -> Scenario {
     let mut day = scenario.clone().into_day();
     let size = day.vertiports.len();

@@ -8,13 +8,14 @@ use super::time_expanded_day::Flight;
 /// An itinerary through the day for one aircraft, or the flights that some passengers buy.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Itinerary {
-    /// What it earns apart from the prices of flights and stands, micro-dollars: of an aircraft, minus the cost of its
-    /// flights; of passengers, what they bring.
+    /// What it earns apart from the prices of flights and stands, micro-dollars: of an aircraft,
+    /// minus the cost of its flights; of passengers, what they bring.
     pub(super) earnings: f64,
-    /// The stays of the aircraft, one after the other, each as the slice before which it ends and its vertiport: the
-    /// one where the aircraft is, or flies to, when slices end.
+    /// The stays of the aircraft, one after the other, each as the slice before which it ends and
+    /// its vertiport: the one where the aircraft is, or flies to, when slices end.
     pub(super) stays: Vec<(u32, u32)>,
-    /// The position of the price of each flight, and how many of them are sold; those that are bought have a minus.
+    /// The position of the price of each flight, and how many of them are sold; those that are
+    /// bought have a minus.
     pub(super) flights: Vec<(u32, f64)>,
 }
 
@@ -52,8 +53,8 @@ impl Itinerary {
         })
     }
 
-    /// The slices in which this itinerary and another are at different vertiports, with the vertiport of this one and
-    /// of the other, in order.
+    /// The slices in which this itinerary and another are at different vertiports, with the
+    /// vertiport of this one and of the other, in order.
     pub(super) fn apart(&self, other: &Self) -> impl Iterator<Item = (Range<usize>, usize, usize)> {
         let (mut one, mut two, mut begin) = (0, 0, 0);
         std::iter::from_fn(move || {

@@ -1,8 +1,8 @@
 //! Prices of bounds kept in files, so that a day's bound is searched for only once.
 //!
-//! A file holds prices and not a bound; the bound that they prove is computed anew. A file that is damaged, of another
-//! day or made up can therefore never give a wrong bound, at worst a loose one. The name is a hash of everything that
-//! the prices depend on.
+//! A file holds prices and not a bound; the bound that they prove is computed anew. A file that is
+//! damaged, of another day or made up can therefore never give a wrong bound, at worst a loose one.
+//! The name is a hash of everything that the prices depend on.
 
 use std::fmt::Write;
 use std::hash::Hasher;
@@ -33,11 +33,12 @@ struct Kept {
     flight: Vec<i64>,
 }
 
-/// Does the same as [`upper_bound_unless`], but takes the prices from a file in `folder` if it exists, and otherwise
-/// writes them there.
+/// Does the same as [`upper_bound_unless`], but takes the prices from a file in `folder` if it
+/// exists, and otherwise writes them there.
 ///
 /// # Errors
-/// The errors of [`upper_bound_unless`], and [`Error::Core`] if the folder or the file cannot be written.
+/// The errors of [`upper_bound_unless`], and [`Error::Core`] if the folder or the file cannot be
+/// written.
 pub fn kept_upper_bound(
     stopped: &Stop,
     scenario: &Scenario,
@@ -56,8 +57,8 @@ pub fn kept_upper_bound(
     Ok(Some(Bound { prices: Prices { stand: kept.stand, flight: kept.flight }, ..bound }))
 }
 
-/// The bound of the prices in a file. Returns `None` if there is no such file, if it has no prices for this day, or if
-/// `stopped` is requested meanwhile.
+/// The bound of the prices in a file. Returns `None` if there is no such file, if it has no prices
+/// for this day, or if `stopped` is requested meanwhile.
 fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Result<Option<Bound>, Error> {
     let Ok(text) = read_at_most(path, LONGEST) else { return Ok(None) };
     let Ok(kept) = serde_json::from_slice::<Kept>(&text) else { return Ok(None) };

@@ -1,9 +1,11 @@
-//! The path to a good bound: from coarse slices to fine ones, and from a coarse clock to the true one.
+//! The path to a good bound: from coarse slices to fine ones, and from a coarse clock to the true
+//! one.
 //!
-//! The path to the requested slices passes through all coarser ones (`CUTS`) and does the same work in each, whatever
-//! was requested. The result is the best bound that was proven on the path, so a shorter step never gives a looser
-//! bound. In each cut, prices are first searched for on a clock that ticks once a minute, where a step takes a fraction
-//! of the time and proves nothing, and then to the second, where every step proves a bound.
+//! The path to the requested slices passes through all coarser ones (`CUTS`) and does the same work
+//! in each, whatever was requested. The result is the best bound that was proven on the path, so a
+//! shorter step never gives a looser bound. In each cut, prices are first searched for on a clock
+//! that ticks once a minute, where a step takes a fraction of the time and proves nothing, and then
+//! to the second, where every step proves a bound.
 
 use vertifleet_core::{Scenario, Stop, Time};
 
@@ -26,8 +28,8 @@ pub(super) struct Cut {
     to_the_second: Descent,
 }
 
-/// The cuts from the coarsest to the finest. Prices that come from coarser slices need less search than those that
-/// begin at zero.
+/// The cuts from the coarsest to the finest. Prices that come from coarser slices need less search
+/// than those that begin at zero.
 pub(super) const CUTS: [Cut; 5] = [
     Cut {
         step: STEPS[0],
@@ -91,8 +93,8 @@ pub(crate) trait Watch: Sync {
     fn is_lowest(&self, bound_usd: f64) -> bool;
 }
 
-/// The best bound that is proven on the path to slices of `step`, or until `watch` stops the search; `None` if that is
-/// before the first bound.
+/// The best bound that is proven on the path to slices of `step`, or until `watch` stops the
+/// search; `None` if that is before the first bound.
 ///
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step.
@@ -130,8 +132,8 @@ impl Cut {
     }
 }
 
-/// The approximate number of comparisons in an evaluation for each pair of vertiports. Starting another flight takes as
-/// long as some of them.
+/// The approximate number of comparisons in an evaluation for each pair of vertiports. Starting
+/// another flight takes as long as some of them.
 fn comparisons(slices: &Slices, tick_s: u32) -> f64 {
     f64::from(slices.day_s() / tick_s) + 16.0 * slices.len() as f64
 }
@@ -147,8 +149,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Searches in slices of one length, starting with the prices that were found in coarser ones. Returns the prices
-    /// to continue with, or `None` if the search is to end.
+    /// Searches in slices of one length, starting with the prices that were found in coarser ones.
+    /// Returns the prices to continue with, or `None` if the search is to end.
     fn rise(
         &mut self,
         cut: &Cut,
@@ -194,8 +196,8 @@ impl Search<'_> {
         (!watch.stopped().is_requested()).then_some(found.prices)
     }
 
-    /// Searches for better prices on the clock of seconds. All of them prove a bound, and the best is kept. Returns the
-    /// prices to continue with, or `None` if the search is to end.
+    /// Searches for better prices on the clock of seconds. All of them prove a bound, and the best
+    /// is kept. Returns the prices to continue with, or `None` if the search is to end.
     fn prove(
         &mut self,
         cut: &Cut,

@@ -1,9 +1,11 @@
-//! The market for flights: what passengers can bring beyond the prices of the flights that they board.
+//! The market for flights: what passengers can bring beyond the prices of the flights that they
+//! board.
 //!
-//! In the relaxation an aircraft sells its flights, each at a price that depends on the demand period, the pair of vertiports
-//! and the number of seats. The passengers of the pair buy whole flights, as many as leave them the most after they have
-//! paid: their *surplus*. Five passengers cannot buy a flight and a quarter, so the surplus is worked out over whole numbers
-//! of flights, exactly. docs/src/concepts/bound.md has the proof.
+//! In the relaxation an aircraft sells its flights, each at a price that depends on the demand
+//! period, the pair of vertiports and the number of seats. The passengers of the pair buy whole
+//! flights, as many as leave them the most after they have paid: their *surplus*. Five passengers
+//! cannot buy a flight and a quarter, so the surplus is worked out over whole numbers of flights,
+//! exactly. docs/src/concepts/bound.md has the proof.
 
 mod buying;
 #[cfg(test)]
@@ -19,7 +21,8 @@ pub(super) struct Market {
     vertiports: usize,
     /// The different numbers of seats of aircraft, in ascending order.
     seats: Vec<u16>,
-    /// Whether passengers wait into the next period, so that flights early in a period are not those late in it.
+    /// Whether passengers wait into the next period, so that flights early in a period are not
+    /// those late in it.
     waits: bool,
     /// Passengers by period, from, to.
     passengers: Vec<u32>,
@@ -31,8 +34,8 @@ pub(super) struct Market {
     choosing: Vec<usize>,
 }
 
-/// The flights of a cell, which is a demand period and a pair of vertiports. Both parts have the same prices if passengers do
-/// not wait into the next period.
+/// The flights of a cell, which is a demand period and a pair of vertiports. Both parts have the
+/// same prices if passengers do not wait into the next period.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
     /// Those that passengers of the period before may board, as long as they wait.
@@ -48,8 +51,8 @@ pub(super) type Bought = Vec<(u32, f64)>;
 pub(super) struct Alike {
     /// Number of flights that leave full.
     pub(super) full: i64,
-    /// What a full flight brings, and what the last flight brings that does not leave full, or 0 without one;
-    /// micro-dollars.
+    /// What a full flight brings, and what the last flight brings that does not leave full, or 0
+    /// without one; micro-dollars.
     pub(super) brings: i64,
     pub(super) last_brings: i64,
 }
@@ -97,7 +100,8 @@ impl Market {
         cell * self.prices_a_cell() + late
     }
 
-    /// Sets the passengers who are left, by cell. Prices that are now above the [most](Self::most) are no longer valid.
+    /// Sets the passengers who are left, by cell. Prices that are now above the [most](Self::most)
+    /// are no longer valid.
     pub(super) fn set_passengers(&mut self, left: Vec<u32>) {
         self.passengers = left;
     }
@@ -121,12 +125,14 @@ impl Market {
         i64::from(boarding.min(self.seats[class].into())) * self.margin[cell]
     }
 
-    /// The pace at which the price of a flight moves, in proportion to that of a flight with one seat.
+    /// The pace at which the price of a flight moves, in proportion to that of a flight with one
+    /// seat.
     pub(super) fn pace(&self, position: usize) -> f64 {
         f64::from(self.seats[position % self.seats.len()]).powi(2)
     }
 
-    /// Whether all flights of a cell have one price, so that cells have nothing to do with each other.
+    /// Whether all flights of a cell have one price, so that cells have nothing to do with each
+    /// other.
     pub(super) fn has_one_price_a_cell(&self) -> bool {
         self.prices_a_cell() == 1
     }
@@ -162,7 +168,8 @@ impl Market {
         self.margin[cell]
     }
 
-    /// Number of parts of the market that have nothing to do with each other: cells, or pairs where passengers wait.
+    /// Number of parts of the market that have nothing to do with each other: cells, or pairs where
+    /// passengers wait.
     pub(super) fn blocks(&self) -> usize {
         if self.waits { self.pairs() } else { self.passengers.len() }
     }
@@ -172,8 +179,8 @@ impl Market {
         self.choosing.iter().copied()
     }
 
-    /// Finds the blocks that choose, once all flights are offered. They stay the same when passengers are gone, because groups of
-    /// the search are in their order.
+    /// Finds the blocks that choose, once all flights are offered. They stay the same when
+    /// passengers are gone, because groups of the search are in their order.
     pub(super) fn find_choosing_blocks(&mut self) {
         let blocks = if self.has_one_price_a_cell() { 0 } else { self.blocks() };
         self.choosing = (0..blocks).filter(|&block| self.offers_any(block)).collect();
@@ -204,8 +211,8 @@ impl Market {
         if self.waits { cell % self.pairs() } else { cell }
     }
 
-    /// These prices, and for the flights that only another market of the same passengers offers, the lowest prices at which
-    /// its passengers have no more surplus than those of this one.
+    /// These prices, and for the flights that only another market of the same passengers offers,
+    /// the lowest prices at which its passengers have no more surplus than those of this one.
     pub(super) fn prices_with_more_flights(&self, more: &Self, prices: &[i64]) -> Vec<i64> {
         let mut known = self.clone();
         let mut prices = prices.to_vec();
@@ -242,8 +249,8 @@ pub(super) fn compact(position: usize) -> u32 {
     u32::try_from(position).expect("the readers bound the cells of demand at 4,000,000")
 }
 
-/// The highest margin of a passenger, by period and pair. Carrying a passenger at a loss is never better than carrying
-/// none.
+/// The highest margin of a passenger, by period and pair. Carrying a passenger at a loss is never
+/// better than carrying none.
 fn margins(scenario: &Scenario) -> Vec<i64> {
     let costs = scenario.passenger_cost_usd.cells();
     let fares = (0..scenario.periods.len())

@@ -1,13 +1,16 @@
-//! The search's model of the day: groups divide themselves among the itineraries that are known so far. Prices rise where
-//! more is asked for than is available, and those of flights fall where more are sold than bought.
+//! The search's model of the day: groups divide themselves among the itineraries that are known so
+//! far. Prices rise where more is asked for than is available, and those of flights fall where more
+//! are sold than bought.
 //!
-//! A group is aircraft that start alike. Passengers who choose between flights with several prices are groups too.
+//! A group is aircraft that start alike. Passengers who choose between flights with several prices
+//! are groups too.
 //!
-//! The model is the dual of the proximal step of a bundle method with one bundle for each group of like aircraft (K.
-//! Kiwiel, *Proximity control in bundle methods for convex nondifferentiable minimization*, Mathematical Programming
-//! 46, 1990): a price is the centre's price moved by a pace times the excess, kept within its limits. Shifting aircraft
-//! from an itinerary to a better one of the same group raises the model's value, and prices follow. This continues
-//! until no shift is worth much.
+//! The model is the dual of the proximal step of a bundle method with one bundle for each group of
+//! like aircraft (K. Kiwiel, *Proximity control in bundle methods for convex nondifferentiable
+//! minimization*, Mathematical Programming 46, 1990): a price is the centre's price moved by a pace
+//! times the excess, kept within its limits. Shifting aircraft from an itinerary to a better one of
+//! the same group raises the model's value, and prices follow. This continues until no shift is
+//! worth much.
 
 use super::itinerary::Itinerary;
 use super::prices::{MOST_FOR_A_STAND, PACE_OF_A_SEAT, Pace, Prices, whole};
@@ -35,8 +38,9 @@ const FORGOTTEN: u32 = 12;
 /// The most shifts of a group in one round.
 const SHIFTS: u32 = 6;
 
-/// The demand for the flights of one price: `full` flights at up to `most`, and one more at up to `last`. Both numbers are 0
-/// where passengers choose between flights with several prices: these are groups of the model.
+/// The demand for the flights of one price: `full` flights at up to `most`, and one more at up to
+/// `last`. Both numbers are 0 where passengers choose between flights with several prices: these
+/// are groups of the model.
 #[derive(Debug, Clone, Copy)]
 struct Buyers {
     /// The highest price, which is what a full flight brings.
@@ -60,16 +64,16 @@ impl Buyers {
         }
     }
 
-    /// The number sold less the number that is bought at a price. At the price that the last flight brings, it may be bought
-    /// or not.
+    /// The number sold less the number that is bought at a price. At the price that the last flight
+    /// brings, it may be bought or not.
     fn excess(self, sold: f64, price: f64) -> f64 {
         let least = if price < self.last { self.full + 1.0 } else { self.full };
         let most = if price <= self.last { self.full + 1.0 } else { self.full };
         sold - sold.clamp(least, most)
     }
 
-    /// The price of the proximal step: from the centre, `a_flight` lower for each flight that is sold and not bought at this
-    /// price, and within its limits.
+    /// The price of the proximal step: from the centre, `a_flight` lower for each flight that is
+    /// sold and not bought at this price, and within its limits.
     fn price(self, sold: f64, centre: f64, a_flight: f64) -> f64 {
         let without_last = centre - a_flight * (sold - self.full);
         if without_last >= self.last {
@@ -97,7 +101,8 @@ pub(super) struct Groups {
 }
 
 impl Groups {
-    /// The number of aircraft of a group that take one itinerary, if it is the one that most of them take; at most 1.
+    /// The number of aircraft of a group that take one itinerary, if it is the one that most of
+    /// them take; at most 1.
     pub(super) fn agreed(&self, group: usize) -> f64 {
         let Group { count, itineraries } = &self.groups[group];
         let share = itineraries.iter().map(|known| known.share).fold(0.0, f64::max);
@@ -128,20 +133,22 @@ pub(super) struct Master<'a> {
     centre: Prices,
     /// Micro-dollars by which a price moves for an excess of one, at a pace of 1.
     pub(super) reach: f64,
-    /// The number of stands asked for less the number available, the number of flights sold less those that groups buy, and
-    /// the model's prices; in the order of [`Prices`].
+    /// The number of stands asked for less the number available, the number of flights sold less
+    /// those that groups buy, and the model's prices; in the order of [`Prices`].
     stand_excess: Vec<f64>,
     flight_excess: Vec<f64>,
     stand: Vec<f64>,
     flight: Vec<f64>,
     /// What else is known of each price of a flight.
     buyers: Vec<Buyers>,
-    /// Price of a stand from the first slice until each slice begins and the last one ends, by vertiport, then slice.
+    /// Price of a stand from the first slice until each slice begins and the last one ends, by
+    /// vertiport, then slice.
     paid: Vec<f64>,
 }
 
 impl<'a> Master<'a> {
-    /// A model in which each group takes its only known itinerary; groups are in the order of layers and vertiports.
+    /// A model in which each group takes its only known itinerary; groups are in the order of
+    /// layers and vertiports.
     pub(super) fn new(
         day: &'a TimeExpandedDay,
         pace: &'a Pace,
@@ -253,8 +260,8 @@ impl<'a> Master<'a> {
         buyers.price(self.flight_excess[at], centre, self.reach * buyers.pace)
     }
 
-    /// Shifts aircraft until all shifts together are worth no more than about `enough` micro-dollars, or for `rounds`
-    /// rounds. Returns the worth of the remaining shifts.
+    /// Shifts aircraft until all shifts together are worth no more than about `enough`
+    /// micro-dollars, or for `rounds` rounds. Returns the worth of the remaining shifts.
     pub(super) fn settle(&mut self, rounds: u32, enough: f64) -> f64 {
         self.count();
         for at in 0..self.stand.len() {
@@ -304,8 +311,8 @@ impl<'a> Master<'a> {
         itinerary.earnings - rents.sum::<f64>() + sold.sum::<f64>()
     }
 
-    /// Shifts aircraft of a group from bad itineraries to the best. Returns what could have been gained before,
-    /// micro-dollars.
+    /// Shifts aircraft of a group from bad itineraries to the best. Returns what could have been
+    /// gained before, micro-dollars.
     fn shift_group(&mut self, group: usize) -> f64 {
         let count = self.groups[group].count;
         if count == 0.0 {
@@ -336,8 +343,8 @@ impl<'a> Master<'a> {
         possible
     }
 
-    /// Shifts aircraft of a group of `count` from one itinerary to a better one, until both are worth about the same.
-    /// Returns the share of the group that was shifted.
+    /// Shifts aircraft of a group of `count` from one itinerary to a better one, until both are
+    /// worth about the same. Returns the share of the group that was shifted.
     fn shift_itineraries(&mut self, worst: &Known, best: &Known, count: f64) -> f64 {
         let (from, to) = (&worst.itinerary, &best.itinerary);
         let gain = best.worth - worst.worth;
@@ -353,8 +360,8 @@ impl<'a> Master<'a> {
         share - back
     }
 
-    /// The amount by which one aircraft that changes its itinerary lowers the worth of the shift, through the prices
-    /// that are not at a limit.
+    /// The amount by which one aircraft that changes its itinerary lowers the worth of the shift,
+    /// through the prices that are not at a limit.
     fn resistance(&self, from: &Itinerary, to: &Itinerary) -> f64 {
         let size = self.day.size();
         let free = |price: f64, most: i64| f64::from(u8::from(price > 0.0 && price < most as f64));
@@ -365,8 +372,8 @@ impl<'a> Master<'a> {
                 resistance += self.pace.of_stands(slice) * (stand(leave) + stand(take));
             }
         }
-        // Flights that both have cancel out, but counting them keeps steps short: without them `paper` stopped at a bound
-        // that was 10 $ higher.
+        // Flights that both have cancel out, but counting them keeps steps short: without them
+        // `paper` stopped at a bound that was 10 $ higher.
         for &(at, number) in from.flights.iter().chain(&to.flights) {
             let buyers = self.buyers[at as usize];
             if buyers.is_free(self.flight[at as usize]) {
@@ -416,8 +423,8 @@ impl<'a> Master<'a> {
         }
     }
 
-    /// The model's estimate of the bound that its prices prove, micro-dollars. It is never more than the true one, but
-    /// for rounding.
+    /// The model's estimate of the bound that its prices prove, micro-dollars. It is never more
+    /// than the true one, but for rounding.
     pub(super) fn value(&self) -> f64 {
         let fleet = self.groups.iter().filter(|group| group.count > 0.0).map(|group| {
             let worths = group.itineraries.iter().map(|known| self.worth(&known.itinerary));

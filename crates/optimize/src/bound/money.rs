@@ -1,9 +1,10 @@
-//! Money in whole micro-dollars, rounded to the safe side, so that sums are exact and bounds remain valid.
+//! Money in whole micro-dollars, rounded to the safe side, so that sums are exact and bounds remain
+//! valid.
 //!
-//! Numbers of a day are within bounds (`vertifleet_core`): no passenger, and no flight with its charge, is worth
-//! 8,000,000 dollars, which are 2^43 micro-dollars. `f64` holds such amounts to less than a hundredth of a
-//! micro-dollar, even after the few operations that computed them. Rounding outwards *and* by one more micro-dollar is
-//! therefore always outwards.
+//! Numbers of a day are within bounds (`vertifleet_core`): no passenger, and no flight with its
+//! charge, is worth 8,000,000 dollars, which are 2^43 micro-dollars. `f64` holds such amounts to
+//! less than a hundredth of a micro-dollar, even after the few operations that computed them.
+//! Rounding outwards *and* by one more micro-dollar is therefore always outwards.
 
 /// Micro-dollars in a dollar.
 const MICRO: f64 = 1e6;

@@ -1,19 +1,21 @@
-//! The penalty for knowing the future: what an aircraft pays when it comes into a slot of take-off delays whose delays it
-//! knows.
+//! The penalty for knowing the future: what an aircraft pays when it comes into a slot of take-off
+//! delays whose delays it knows.
 //!
-//! A bound of a day that is known in full is above what anyone can earn who learns of delays only as they come. A penalty
-//! takes back what that knowledge is worth (D. Brown, J. Smith, P. Sun, *Information relaxations and duality in stochastic
-//! dynamic programs*, Operations Research 58, 2010). With any function v of an aircraft's place and time and of the delay
-//! there, an aircraft that will decide next at vertiport j at time t, in a slot that it did not decide in before, pays
+//! A bound of a day that is known in full is above what anyone can earn who learns of delays only
+//! as they come. A penalty takes back what that knowledge is worth (D. Brown, J. Smith, P. Sun,
+//! *Information relaxations and duality in stochastic dynamic programs*, Operations Research 58,
+//! 2010). With any function v of an aircraft's place and time and of the delay there, an aircraft
+//! that will decide next at vertiport j at time t, in a slot that it did not decide in before, pays
 //!
 //! ```text
 //! v(j, t, delay of the slot at j)  -  mean of v(j, t, .) over the delays that may be drawn
 //! ```
 //!
-//! The mean of this payment is zero for every policy that does not know a slot's delays before the slot begins, because
-//! where its aircraft are by then does not depend on them. So the mean over days of the bounds with penalty is no lower
-//! than the mean profit of such a policy; docs/src/concepts/bound.md has the proof. It holds for any v; a good one is near
-//! the true worth. Here v is worked out on the day that the forecast expects, at its prices.
+//! The mean of this payment is zero for every policy that does not know a slot's delays before the
+//! slot begins, because where its aircraft are by then does not depend on them. So the mean over
+//! days of the bounds with penalty is no lower than the mean profit of such a policy;
+//! docs/src/concepts/bound.md has the proof. It holds for any v; a good one is near the true worth.
+//! Here v is worked out on the day that the forecast expects, at its prices.
 
 use vertifleet_core::{Scenario, TakeoffDelays, TypeIx};
 
@@ -21,9 +23,11 @@ use super::certificate::{Certificate, earnings};
 use super::prices::{Prices, whole};
 use super::time_expanded_day::{Layer, TimeExpandedDay};
 
-/// v is worked out for this many delays from none to the longest, and is a straight line between two of them.
+/// v is worked out for this many delays from none to the longest, and is a straight line between
+/// two of them.
 const DELAYS: u32 = 30;
-/// v is within this distance of its value without delay, micro-dollars, so that no sum leaves `i64`.
+/// v is within this distance of its value without delay, micro-dollars, so that no sum leaves
+/// `i64`.
 const FARTHEST: i64 = 100_000_000_000_000;
 
 /// A day that is expected, with the prices that were found for it.
@@ -40,15 +44,17 @@ pub(super) struct Penalty {
     /// The aircraft types in the order of the payments.
     kinds: Vec<TypeIx>,
     vertiports: usize,
-    /// The first second of each slot, counted from the first take-off time, and the second after the last one.
+    /// The first second of each slot, counted from the first take-off time, and the second after
+    /// the last one.
     slots_s: Vec<u32>,
-    /// By type, vertiport, second: the payment of an aircraft that decides then, and before in an earlier slot;
-    /// micro-dollars, rounded down.
+    /// By type, vertiport, second: the payment of an aircraft that decides then, and before in an
+    /// earlier slot; micro-dollars, rounded down.
     micro_usd: Vec<i64>,
 }
 
 impl Penalty {
-    /// The penalty for a day with these delays, which are drawn with these probabilities, by vertiport and seconds.
+    /// The penalty for a day with these delays, which are drawn with these probabilities, by
+    /// vertiport and seconds.
     pub(super) fn of(
         delays: &TakeoffDelays,
         probabilities: &[Vec<f64>],
@@ -153,8 +159,8 @@ impl Spread {
         Self { apart_s, longest_s, weights }
     }
 
-    /// The payments, by second, if v has these `worths`, by delay and second, and the delay is `delay_s`. They are rounded
-    /// down, and by more than the error of floating-point numbers.
+    /// The payments, by second, if v has these `worths`, by delay and second, and the delay is
+    /// `delay_s`. They are rounded down, and by more than the error of floating-point numbers.
     fn payments(&self, worths: &[Vec<i64>], delay_s: u32) -> impl Iterator<Item = i64> {
         let (before, share) = split(delay_s.min(self.longest_s), self.apart_s);
         let never = self.weights.len() == 1;
@@ -181,8 +187,9 @@ fn split(delay_s: u32, apart_s: u32) -> (usize, f64) {
 }
 
 impl Expected<'_> {
-    /// The worth, less the price of the stand since the day began, of deciding at a vertiport at each second of a slot if
-    /// its flights are so late, by delay and second. Afterwards all is as expected.
+    /// The worth, less the price of the stand since the day began, of deciding at a vertiport at
+    /// each second of a slot if its flights are so late, by delay and second. Afterwards all is as
+    /// expected.
     fn worths(&self, layer: usize, at: usize, spread: &Spread, slot: (u32, u32)) -> Vec<Vec<i64>> {
         let seconds = (slot.1 - slot.0) as usize;
         let delays_s = (0_u32..).step_by(spread.apart_s as usize).take(spread.weights.len());

@@ -1,14 +1,18 @@
-//! Prices: that of a stand when a slice ends, which aircraft pay, and that of a flight, which passengers pay.
+//! Prices: that of a stand when a slice ends, which aircraft pay, and that of a flight, which
+//! passengers pay.
 //!
-//! Any prices within the limits of this file prove a bound (`certificate.rs`); good ones prove a tight one.
+//! Any prices within the limits of this file prove a bound (`certificate.rs`); good ones prove a
+//! tight one.
 
 use super::slices::Slices;
 use super::time_expanded_day::TimeExpandedDay;
 
-/// The most that a stand may cost in a slice, micro-dollars. It keeps every sum of `certificate.rs` within `i64`.
+/// The most that a stand may cost in a slice, micro-dollars. It keeps every sum of `certificate.rs`
+/// within `i64`.
 pub(super) const MOST_FOR_A_STAND: i64 = 100_000_000_000_000;
 
-/// Pace of the price of a flight of one seat, relative to that of a stand in a slice of a quarter of an hour.
+/// Pace of the price of a flight of one seat, relative to that of a stand in a slice of a quarter
+/// of an hour.
 pub(super) const PACE_OF_A_SEAT: f64 = 0.2;
 
 /// Prices in whole micro-dollars.
@@ -16,8 +20,8 @@ pub(super) const PACE_OF_A_SEAT: f64 = 0.2;
 pub(super) struct Prices {
     /// Price that an aircraft pays for its stand when a slice ends, by slice, then vertiport.
     pub(super) stand: Vec<i64>,
-    /// Price of a flight, by period, from, to; of each, before and after those have left who waited for it, if passengers
-    /// wait; of each, by number of seats. No more than a flight can bring.
+    /// Price of a flight, by period, from, to; of each, before and after those have left who waited
+    /// for it, if passengers wait; of each, by number of seats. No more than a flight can bring.
     pub(super) flight: Vec<i64>,
 }
 
@@ -44,8 +48,8 @@ impl Prices {
         within.then_some(Self { stand, flight })
     }
 
-    /// The same prices in other slices of the same day. The price of a stand in a slice is spread evenly over its
-    /// seconds, so that the rent of a long stay is unchanged.
+    /// The same prices in other slices of the same day. The price of a stand in a slice is spread
+    /// evenly over its seconds, so that the rent of a long stay is unchanged.
     pub(super) fn in_slices(&self, from: &Slices, to: &Slices, size: usize) -> Self {
         let mut stand = Vec::with_capacity(to.len() * size);
         for slice in 0..to.len() {
@@ -64,8 +68,8 @@ impl Prices {
     }
 }
 
-/// The pace at which prices move. A stand's price in a slice moves in proportion to the length of the slice, so that
-/// the rent of a stay moves equally fast in slices of any length.
+/// The pace at which prices move. A stand's price in a slice moves in proportion to the length of
+/// the slice, so that the rent of a stay moves equally fast in slices of any length.
 #[derive(Debug, Clone)]
 pub(super) struct Pace {
     /// The pace of a stand's price, by slice.

@@ -1,5 +1,6 @@
-//! Checks the steps of the proof on real days at arbitrary prices: the payments and profits of aircraft, and the
-//! amount given back. The days are of `paper`, of `disrupted`, and small ones with everything that a day may hold.
+//! Checks the steps of the proof on real days at arbitrary prices: the payments and profits of
+//! aircraft, and the amount given back. The days are of `paper`, of `disrupted`, and small ones
+//! with everything that a day may hold.
 
 use std::sync::Arc;
 
@@ -81,7 +82,8 @@ fn payments(expanded: &TimeExpandedDay, layer: usize, trace: &Trace, aircraft: A
     paid
 }
 
-/// The vertiport where an aircraft stands or flies to at the end of each slice, by its decisions until then.
+/// The vertiport where an aircraft stands or flies to at the end of each slice, by its decisions
+/// until then.
 fn places(
     day: &Scenario,
     expanded: &TimeExpandedDay,
@@ -105,7 +107,8 @@ fn layer_of(day: &Scenario, expanded: &TimeExpandedDay, aircraft: AircraftIx) ->
     expanded.layers.iter().position(own).expect("every aircraft has a layer")
 }
 
-/// Plays a day by several rules, and checks each aircraft, and all of them together, against the proof.
+/// Plays a day by several rules, and checks each aircraft, and all of them together, against the
+/// proof.
 fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
     let mut expanded = TimeExpandedDay::of(day, &[], step_s).expect("a small day");
     let delays = day.disturbances.takeoff_delays.as_ref();
@@ -135,8 +138,8 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
                 let period = expanded.slices.period(slice);
                 let size = expanded.size();
                 let cell = (period * size + row.from.at()) * size + row.to.at();
-                // The amount is rounded down, because the proof must not depend on the rounding of a real day's
-                // amounts.
+                // The amount is rounded down, because the proof must not depend on the rounding of
+                // a real day's amounts.
                 let earned = money::down(row.profit_usd());
                 let brought = i64::from(row.passengers) * expanded.market.margin(cell);
                 profit += i128::from(earned);
@@ -152,7 +155,8 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
                 "aircraft {aircraft:?} has {left} left, its best itinerary {worth}"
             );
         }
-        // What is paid for stands, and what passengers bring beyond what they pay, is no more than the amount given back.
+        // What is paid for stands, and what passengers bring beyond what they pay, is no more than
+        // the amount given back.
         for (at, &count) in taken.iter().enumerate() {
             assert!(count <= expanded.stands[at]);
         }

@@ -1,8 +1,8 @@
 //! What is left of a day while its aircraft are planned one after another, and its prices.
 //!
-//! The prices come from the same search as those of a bound, on the coarse clock, in slices as fine as time allows. They prove
-//! nothing. Once an aircraft has been planned, its stands and passengers are gone, and a few more steps of the search find
-//! the prices of the rest.
+//! The prices come from the same search as those of a bound, on the coarse clock, in slices as fine
+//! as time allows. They prove nothing. Once an aircraft has been planned, its stands and passengers
+//! are gone, and a few more steps of the search find the prices of the rest.
 
 use vertifleet_core::{AircraftIx, Scenario, Stop, VertiportIx};
 
@@ -16,8 +16,8 @@ use super::prices::{Pace, Prices};
 use super::slices::Slices;
 use super::time_expanded_day::{Start, TimeExpandedDay};
 
-/// The least price of a stand in a slice where none is left, micro-dollars: far more than flights gain in a minute on the shipped
-/// networks.
+/// The least price of a stand in a slice where none is left, micro-dollars: far more than flights
+/// gain in a minute on the shipped networks.
 const NONE_LEFT: i64 = 300_000_000;
 
 /// The way of an aircraft through the day.
@@ -43,9 +43,10 @@ pub(crate) struct Rest {
 }
 
 impl Rest {
-    /// A whole day, with prices. `allows` is asked with the number of steps so far: before each cut also with the most that it takes,
-    /// and with 0 after each step. The prices are as fine as it allows. Returns `None` if the day is too large, or `stopped` is
-    /// requested before the prices are found.
+    /// A whole day, with prices. `allows` is asked with the number of steps so far: before each cut
+    /// also with the most that it takes, and with 0 after each step. The prices are as fine as it
+    /// allows. Returns `None` if the day is too large, or `stopped` is requested before the prices
+    /// are found.
     pub(crate) fn of(
         scenario: &Scenario,
         stopped: &Stop,
@@ -136,7 +137,8 @@ impl Rest {
         (0..self.slices.len()).map(stand).collect()
     }
 
-    /// Finds the prices of the rest by a number of steps. `left` are the passengers who are left, by cell.
+    /// Finds the prices of the rest by a number of steps. `left` are the passengers who are left,
+    /// by cell.
     pub(crate) fn price(&mut self, left: Vec<u32>, steps: u32, stopped: &Stop) {
         self.day.market.set_passengers(left);
         for (position, price) in self.prices.flight.iter_mut().enumerate() {
@@ -156,7 +158,8 @@ impl Rest {
         }
     }
 
-    /// The price of a stand from the start of the day to each of some moments in order, which are seconds; dollars.
+    /// The price of a stand from the start of the day to each of some moments in order, which are
+    /// seconds; dollars.
     pub(crate) fn rents_usd(
         &self,
         vertiport: VertiportIx,
@@ -180,7 +183,8 @@ impl Rest {
         })
     }
 
-    /// What passengers pay for a flight of a type in a cell, before or after those have left who waited for it; dollars.
+    /// What passengers pay for a flight of a type in a cell, before or after those have left who
+    /// waited for it; dollars.
     pub(crate) fn flights_usd(&self, seats: u16, is_early: bool) -> Vec<f64> {
         let part = if is_early { Part::Early } else { Part::Late };
         let market = &self.day.market;

@@ -1,15 +1,18 @@
-//! Time slices: the day's take-off times cut into short intervals, within each of which prices are constant.
+//! Time slices: the day's take-off times cut into short intervals, within each of which prices are
+//! constant.
 //!
-//! Every take-off time, up to and including the end of operations, is in exactly one slice. A new slice begins wherever
-//! a demand period or a slot of take-off delays begins, so that a slice lies in one period and one slot, and where those
-//! leave who have waited since the period before, so that they can be carried in all of a slice or in none of it.
+//! Every take-off time, up to and including the end of operations, is in exactly one slice. A new
+//! slice begins wherever a demand period or a slot of take-off delays begins, so that a slice lies
+//! in one period and one slot, and where those leave who have waited since the period before, so
+//! that they can be carried in all of a slice or in none of it.
 
 use vertifleet_core::{Scenario, Time};
 
 /// The slices of a day, in order.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Slices {
-    /// First second of each slice, and at the end the second after the last take-off time, which belongs to no slice.
+    /// First second of each slice, and at the end the second after the last take-off time, which
+    /// belongs to no slice.
     starts_s: Vec<u32>,
     /// The demand period of each slice.
     periods: Vec<usize>,
@@ -49,8 +52,8 @@ impl Slices {
         Self { starts_s, periods, wait }
     }
 
-    /// The same slices on a clock that only ticks every `tick_s` seconds, from 0 on. Slices shorter than a tick may be
-    /// empty there.
+    /// The same slices on a clock that only ticks every `tick_s` seconds, from 0 on. Slices shorter
+    /// than a tick may be empty there.
     pub(super) fn on_coarse_clock(&self, tick_s: u32) -> Self {
         let first_s = self.start_s(0);
         let starts_s = self.starts_s.iter().map(|start_s| (start_s - first_s).div_ceil(tick_s));
@@ -71,7 +74,8 @@ impl Slices {
         self.start_s(self.len()) - self.start_s(0)
     }
 
-    /// First second of a slice. For the slice past the last one, it is the second after the last take-off time.
+    /// First second of a slice. For the slice past the last one, it is the second after the last
+    /// take-off time.
     pub(super) fn start_s(&self, slice: usize) -> u32 {
         self.starts_s[slice]
     }
@@ -91,8 +95,8 @@ impl Slices {
         self.wait[slice]
     }
 
-    /// The slice that contains a time. It is the first one for earlier times, and [`Slices::len`] past the last
-    /// take-off time.
+    /// The slice that contains a time. It is the first one for earlier times, and [`Slices::len`]
+    /// past the last take-off time.
     pub(super) fn containing(&self, time_s: u32) -> usize {
         self.starts_s.partition_point(|&start_s| start_s <= time_s).saturating_sub(1)
     }

@@ -2,10 +2,11 @@
 
 use crate::Error;
 
-/// The longest time over which prices stay the same: a whole number of minutes from 1 to 60. A shorter step never gives
-/// a looser bound, and takes longer.
+/// The longest time over which prices stay the same: a whole number of minutes from 1 to 60. A
+/// shorter step never gives a looser bound, and takes longer.
 ///
-/// Slices of time have 60, 15, 5, 3 or 1 minutes: the longest of these that is no longer than the requested step.
+/// Slices of time have 60, 15, 5, 3 or 1 minutes: the longest of these that is no longer than the
+/// requested step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
     pub(super) minutes: u32,

@@ -1,9 +1,9 @@
-//! The choices of the aircraft of a day, laid out for the search of their best itineraries: legs, holds,
-//! limits, and the market for flights.
+//! The choices of the aircraft of a day, laid out for the search of their best itineraries: legs,
+//! holds, limits, and the market for flights.
 //!
-//! Aircraft of one type are alike, so there is one layer for each type. Aircraft that have an outage today form a layer
-//! of their own, in which outages are dropped and waiting is free. The cost of a flight depends on the slice in which
-//! it begins, never on the second within it.
+//! Aircraft of one type are alike, so there is one layer for each type. Aircraft that have an
+//! outage today form a layer of their own, in which outages are dropped and waiting is free. The
+//! cost of a flight depends on the slice in which it begins, never on the second within it.
 
 use std::collections::BTreeMap;
 
@@ -38,8 +38,9 @@ pub(super) struct Flight {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Layer {
     pub(super) kind: TypeIx,
-    /// Whether its aircraft may wait for any time and not only for holds. An aircraft without outages that may wait for
-    /// any time can do everything that an aircraft kept on the ground by an outage does.
+    /// Whether its aircraft may wait for any time and not only for holds. An aircraft without
+    /// outages that may wait for any time can do everything that an aircraft kept on the ground by
+    /// an outage does.
     pub(super) waits_freely: bool,
     /// Where and when its aircraft start, those alike together, by vertiport and time.
     pub(super) starts: Vec<Start>,
@@ -62,7 +63,8 @@ pub(super) struct TimeExpandedDay {
     pub(super) slices: Slices,
     /// The types that have an aircraft in the fleet.
     pub(super) layers: Vec<Layer>,
-    /// Number of stands that are left, by slice, then vertiport: U_max, unless aircraft have been planned.
+    /// Number of stands that are left, by slice, then vertiport: U_max, unless aircraft have been
+    /// planned.
     pub(super) stands: Vec<u32>,
     vertiports: usize,
     /// The passengers, who buy flights.
@@ -71,8 +73,8 @@ pub(super) struct TimeExpandedDay {
     pub(super) fixed_cost: i64,
     /// Duration of a hold, seconds.
     pub(super) hold_s: u32,
-    /// The shortest time from a take-off to the next one, or the duration of a hold if that is shorter; seconds, at
-    /// least 1.
+    /// The shortest time from a take-off to the next one, or the duration of a hold if that is
+    /// shorter; seconds, at least 1.
     pub(super) shortest_s: u32,
     /// What aircraft pay for knowing delays, if the bound is to be one without foresight.
     pub(super) penalty: Option<Penalty>,
@@ -82,8 +84,8 @@ pub(super) struct TimeExpandedDay {
 }
 
 impl TimeExpandedDay {
-    /// Lays out a day in slices of at most `step_s` seconds. Aircraft decide first when they are `ready`; those past its
-    /// end are ready from the start.
+    /// Lays out a day in slices of at most `step_s` seconds. Aircraft decide first when they are
+    /// `ready`; those past its end are ready from the start.
     ///
     /// # Errors
     /// [`Error::TooManyFlights`].
@@ -132,8 +134,9 @@ impl TimeExpandedDay {
         })
     }
 
-    /// The same day on a clock that only ticks every `tick_s` seconds, with all durations rounded to whole ticks.
-    /// Results on it are near the truth and take a fraction of the time, but prove nothing.
+    /// The same day on a clock that only ticks every `tick_s` seconds, with all durations rounded
+    /// to whole ticks. Results on it are near the truth and take a fraction of the time, but prove
+    /// nothing.
     pub(super) fn on_coarse_clock(mut self, tick_s: u32) -> Self {
         let nearest = |seconds: u32| ((seconds + tick_s / 2) / tick_s).max(1);
         self.hold_s = nearest(self.hold_s);
@@ -232,13 +235,14 @@ impl TimeExpandedDay {
     }
 }
 
-/// Number of aircraft that may be at a vertiport or on their way to it. Where chargers are counted apart, each has a
-/// charger or a stand.
+/// Number of aircraft that may be at a vertiport or on their way to it. Where chargers are counted
+/// apart, each has a charger or a stand.
 fn room(vertiport: &Vertiport) -> u32 {
     u32::from(vertiport.stands) + vertiport.chargers.map_or(0, u32::from)
 }
 
-/// The layers of the fleet, by aircraft type in file order; of each type, the aircraft without outages come first.
+/// The layers of the fleet, by aircraft type in file order; of each type, the aircraft without
+/// outages come first.
 fn layers(scenario: &Scenario, ready: &[Time]) -> Vec<Layer> {
     let has_outage = has_outage(scenario);
     let mut layers = Vec::new();
@@ -286,8 +290,8 @@ fn pairs(legs: &Legs, layers: &[Layer], size: usize) -> usize {
     layers.iter().map(within_range).sum()
 }
 
-/// What the fleet, the stands and the chargers cost whatever is decided, rounded down for each, and 0 where they cost
-/// nothing, which rounding down would make negative.
+/// What the fleet, the stands and the chargers cost whatever is decided, rounded down for each, and
+/// 0 where they cost nothing, which rounding down would make negative.
 fn fixed_cost(scenario: &Scenario) -> i64 {
     let each = |cost_usd: f64| money::down(cost_usd).max(0);
     let fleet = i64::try_from(scenario.aircraft.len()).expect("at most 10,000 aircraft");

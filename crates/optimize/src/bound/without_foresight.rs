@@ -1,8 +1,8 @@
-//! The bound without foresight: dollars that no policy earns more than on average if it learns of take-off delays only as
-//! they come.
+//! The bound without foresight: dollars that no policy earns more than on average if it learns of
+//! take-off delays only as they come.
 //!
-//! Each day is bounded with a [`Penalty`] for knowing its delays. What else a day has, its demand, closures and outages,
-//! it knows from the start, as [`upper_bound`](super::upper_bound) does.
+//! Each day is bounded with a [`Penalty`] for knowing its delays. What else a day has, its demand,
+//! closures and outages, it knows from the start, as [`upper_bound`](super::upper_bound) does.
 
 use vertifleet_core::{Network, Scenario, Stop, TakeoffDelays};
 
@@ -14,14 +14,15 @@ use super::time_expanded_day::TimeExpandedDay;
 use super::{Bound, Step, Unless, upper_bound_unless};
 use crate::Error;
 
-/// The bound of a day that was drawn from a network, with a penalty for knowing its take-off delays. The mean of these
-/// bounds over days that are drawn is at least the mean profit of any policy that does not know the delays of a slot before
-/// the slot begins; the bound of one day says nothing about that day alone. It is that of
-/// [`upper_bound`](super::upper_bound) where the network has no delays. `None` soon after `stopped` is requested.
+/// The bound of a day that was drawn from a network, with a penalty for knowing its take-off
+/// delays. The mean of these bounds over days that are drawn is at least the mean profit of any
+/// policy that does not know the delays of a slot before the slot begins; the bound of one day says
+/// nothing about that day alone. It is that of [`upper_bound`](super::upper_bound) where the
+/// network has no delays. `None` soon after `stopped` is requested.
 ///
 /// # Errors
-/// [`Error::TooManyFlights`] if the day is too large for this step, and [`Error::OtherNetwork`] if the day cannot have been
-/// drawn from the network.
+/// [`Error::TooManyFlights`] if the day is too large for this step, and [`Error::OtherNetwork`] if
+/// the day cannot have been drawn from the network.
 pub fn bound_without_foresight(
     stopped: &Stop,
     network: &Network,
@@ -41,7 +42,8 @@ pub fn bound_without_foresight(
     }
 }
 
-/// The same for a day with these delays, which are drawn with these probabilities, by vertiport and seconds.
+/// The same for a day with these delays, which are drawn with these probabilities, by vertiport and
+/// seconds.
 pub(super) fn bound_with_penalty(
     stopped: &Stop,
     scenario: &Scenario,
@@ -74,9 +76,9 @@ fn can_be_drawn(delays: &TakeoffDelays, probabilities: &[Vec<f64>]) -> bool {
     })
 }
 
-/// The day as it is expected when it begins: the demand of the forecast, every take-off as late as on the mean, only the
-/// closures that are announced, and no outages. What is expected of one slot is expected of all, so nothing that the day
-/// draws shows in it.
+/// The day as it is expected when it begins: the demand of the forecast, every take-off as late as
+/// on the mean, only the closures that are announced, and no outages. What is expected of one slot
+/// is expected of all, so nothing that the day draws shows in it.
 fn expected_day(
     scenario: &Scenario,
     delays: &TakeoffDelays,

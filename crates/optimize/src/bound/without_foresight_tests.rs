@@ -1,5 +1,6 @@
-//! Checks the bound without foresight on worlds so small that the best policy is found by enumeration: over all delays that
-//! may be drawn, and over all decisions of a policy that learns the delays of a slot when the slot begins.
+//! Checks the bound without foresight on worlds so small that the best policy is found by
+//! enumeration: over all delays that may be drawn, and over all decisions of a policy that learns
+//! the delays of a slot when the slot begins.
 
 use std::sync::Arc;
 
@@ -95,8 +96,9 @@ impl World {
             .sum()
     }
 
-    /// The most that a policy earns on the mean from here on, if it knows the delays that are drawn, and all else of the
-    /// day; dollars. It is infinite if that takes more looks than are left.
+    /// The most that a policy earns on the mean from here on, if it knows the delays that are
+    /// drawn, and all else of the day; dollars. It is infinite if that takes more looks than are
+    /// left.
     fn best_usd(
         &self,
         drawn: &mut Vec<Vec<u32>>,
@@ -140,8 +142,8 @@ impl World {
     }
 }
 
-/// Worlds that are small enough, each with the mean profit of the best policy that does not know the delays of slots
-/// before they begin.
+/// Worlds that are small enough, each with the mean profit of the best policy that does not know
+/// the delays of slots before they begin.
 fn worlds() -> Vec<(u32, World, f64)> {
     let found = (0..150_u32).into_par_iter().filter_map(|number| {
         let world = World::of(number);
@@ -176,8 +178,9 @@ fn no_policy_without_foresight_earns_more_on_the_mean() {
     });
 }
 
-/// A world of one aircraft, which flies from V0 to V1 or V2 and back with $40 each time, and then has time for one more
-/// such flight if it left V1 or V2 on time. Each of them is late with a probability of one half.
+/// A world of one aircraft, which flies from V0 to V1 or V2 and back with $40 each time, and then
+/// has time for one more such flight if it left V1 or V2 on time. Each of them is late with a
+/// probability of one half.
 fn world_of_a_coin() -> World {
     let vertiport = |id: &str| Vertiport {
         id: id.to_owned(),

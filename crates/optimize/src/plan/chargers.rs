@@ -1,9 +1,10 @@
 //! Vertiports with chargers beside their stands: when their places are taken.
 //!
-//! A flight needs a charger, from its take-off until the aircraft leaves. An aircraft that holds moves to a stand if one is
-//! free, and keeps its charger if not. Which aircraft finds a stand free depends on all others, so the places of such
-//! vertiports are counted again after every change of a schedule. A change of one aircraft may keep another on its charger
-//! for longer. If there are then more aircraft than chargers, the change has to be undone.
+//! A flight needs a charger, from its take-off until the aircraft leaves. An aircraft that holds
+//! moves to a stand if one is free, and keeps its charger if not. Which aircraft finds a stand free
+//! depends on all others, so the places of such vertiports are counted again after every change of
+//! a schedule. A change of one aircraft may keep another on its charger for longer. If there are
+//! then more aircraft than chargers, the change has to be undone.
 
 use vertifleet_core::{AircraftIx, VertiportIx};
 
@@ -49,8 +50,8 @@ impl BesideChargers {
         any.then(|| Self { stands: StandTimes::empty(&limits), overfull: None })
     }
 
-    /// Counts the places of all vertiports with chargers: their stands here, and their chargers in `chargers`. The stays may
-    /// be in any order.
+    /// Counts the places of all vertiports with chargers: their stands here, and their chargers in
+    /// `chargers`. The stays may be in any order.
     pub(super) fn count(&mut self, day: &Day, stays: &[Stay], chargers: &mut StandTimes) {
         self.overfull = None;
         let mut by_vertiport = vec![Vec::new(); day.vertiports];

@@ -1,4 +1,5 @@
-//! The duration, energy and profit of every flight of a day, in the form that the search reads fastest.
+//! The duration, energy and profit of every flight of a day, in the form that the search reads
+//! fastest.
 
 use vertifleet_core::{AircraftIx, Scenario, TypeIx, VertiportIx};
 use vertifleet_sim::View;
@@ -22,7 +23,8 @@ pub(super) struct Day {
     pub(super) energy_price_usd: Vec<f64>,
     /// Cost of the fleet, whether or not it flies, dollars.
     pub(super) fixed_cost_usd: f64,
-    /// U_max of each vertiport: the number of its stands, or of its chargers where it has them beside its stands.
+    /// U_max of each vertiport: the number of its stands, or of its chargers where it has them
+    /// beside its stands.
     pub(super) stands: Vec<u16>,
     /// Number of stands of each vertiport with chargers beside them.
     beside_chargers: Vec<Option<u16>>,
@@ -37,7 +39,8 @@ pub(super) struct Day {
 }
 
 impl Day {
-    /// Takes the numbers of a scenario from a view of its start, with what is known of the day beyond it.
+    /// Takes the numbers of a scenario from a view of its start, with what is known of the day
+    /// beyond it.
     pub(super) fn of(scenario: &Scenario, view: View<'_>) -> Self {
         let foresight = Foresight::of(scenario);
         let vertiports = view.vertiports();
@@ -105,7 +108,8 @@ impl Day {
         i64::from(self.seats_of(self.kind(aircraft)))
     }
 
-    /// Number of stands of a vertiport that also has chargers; `None` where stands are the only places.
+    /// Number of stands of a vertiport that also has chargers; `None` where stands are the only
+    /// places.
     #[inline]
     pub(super) fn stands_beside_chargers(&self, vertiport: VertiportIx) -> Option<u16> {
         self.beside_chargers[vertiport.at()]
@@ -176,14 +180,15 @@ impl Day {
         self.margins_usd[cell]
     }
 
-    /// Cost of a flight that takes off in `period` and lands at `arrival_s`, with or without passengers, dollars: charging
-    /// after it, and its own cost.
+    /// Cost of a flight that takes off in `period` and lands at `arrival_s`, with or without
+    /// passengers, dollars: charging after it, and its own cost.
     #[inline]
     pub(super) fn flying_cost_usd(&self, hop: &Hop, period: usize, arrival_s: u32) -> f64 {
         self.energy_cost_usd(hop, period, arrival_s) + hop.flight_cost_usd
     }
 
-    /// Cost of charging after a flight that takes off in `period` and lands at `arrival_s`, dollars.
+    /// Cost of charging after a flight that takes off in `period` and lands at `arrival_s`,
+    /// dollars.
     #[inline]
     pub(super) fn energy_cost_usd(&self, hop: &Hop, period: usize, arrival_s: u32) -> f64 {
         hop.energy_kwh * self.energy_price_usd[self.period_from(period, arrival_s)]

@@ -1,11 +1,13 @@
-//! Price and dive: aircraft are planned one after another at the prices of a bound, which are found again after each.
+//! Price and dive: aircraft are planned one after another at the prices of a bound, which are found
+//! again after each.
 //!
-//! The aircraft on whose itinerary the search for prices agrees most comes first. Its itinerary is the best one that is
-//! feasible to the second, at the prices of stands and flights. Its stands and passengers are gone for the others
-//! (C. Joncour et al., *Column generation based primal heuristics*, Electronic Notes in Discrete Mathematics 36, 2010).
+//! The aircraft on whose itinerary the search for prices agrees most comes first. Its itinerary is
+//! the best one that is feasible to the second, at the prices of stands and flights. Its stands and
+//! passengers are gone for the others (C. Joncour et al., *Column generation based primal
+//! heuristics*, Electronic Notes in Discrete Mathematics 36, 2010).
 //!
-//! Where time is limited, a dive is as thorough as it can be within its time: prices are found in coarser slices of the day,
-//! and again after every few aircraft only.
+//! Where time is limited, a dive is as thorough as it can be within its time: prices are found in
+//! coarser slices of the day, and again after every few aircraft only.
 
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
@@ -22,9 +24,10 @@ use crate::bound::{Rest, Way};
 
 /// Steps of the search for prices after each aircraft.
 const STEPS: u32 = 20;
-/// The shares of the prices that aircraft pay, one for each dive. At whole prices very many itineraries are worth the same, and
-/// one that earns little is as good as one that earns much. On calm validation day 3000 of `dallas`, dives with shares of 1, 0.9, 0.8,
-/// 0.7 and 0.5 had 89,793, 94,106, 94,738, 94,373 and 92,922 $, and `rolling` 90,241.
+/// The shares of the prices that aircraft pay, one for each dive. At whole prices very many
+/// itineraries are worth the same, and one that earns little is as good as one that earns much. On
+/// calm validation day 3000 of `dallas`, dives with shares of 1, 0.9, 0.8, 0.7 and 0.5 had 89,793,
+/// 94,106, 94,738, 94,373 and 92,922 $, and `rolling` 90,241.
 const SHARES: [f64; 2] = [0.8, 0.9];
 
 /// The prices and the schedule that dives find: none if the day is too large for them.
@@ -61,7 +64,8 @@ impl Dive {
         Self { ended, stop }
     }
 
-    /// The result, once the dives have come to an end. This waits for them, but no longer than `patience`.
+    /// The result, once the dives have come to an end. This waits for them, but no longer than
+    /// `patience`.
     pub(super) fn outcome(&self, patience: Duration) -> Option<Dived> {
         match self.ended.recv_timeout(patience) {
             Ok(dived) => Some(dived),
@@ -79,14 +83,16 @@ impl Drop for Dive {
 
 /// About how many steps of a search take as long as thorough dives.
 pub(super) fn search_steps(scenario: &Scenario) -> f64 {
-    /// Steps of a search that take as long as a step for prices with aircraft of one type: 6 to 9 on cities, 13 on `paper`.
+    /// Steps of a search that take as long as a step for prices with aircraft of one type: 6 to 9
+    /// on cities, 13 on `paper`.
     const EACH: f64 = 8.0;
     let fleet = scenario.aircraft.len() as f64;
     let steps = f64::from(Rest::most_steps()) + SHARES.len() as f64 * f64::from(STEPS) * fleet;
     EACH * scenario.aircraft_types.len() as f64 * steps
 }
 
-/// The prices of a day and the best of the dives that there is time for; `None` if there is not even time for prices.
+/// The prices of a day and the best of the dives that there is time for; `None` if there is not
+/// even time for prices.
 fn dive(
     scenario: &Scenario,
     problem: &Problem,
@@ -96,7 +102,8 @@ fn dive(
     let fleet = scenario.aircraft.len() as f64;
     let begun = Instant::now();
     let rest = Rest::of(scenario, stopped, &mut |steps, next| {
-        // The first cut tells how long a step takes. A finer one should leave time to find prices after each aircraft.
+        // The first cut tells how long a step takes. A finer one should leave time to find prices
+        // after each aircraft.
         let to_come = if next == 0 { 0.0 } else { f64::from(next) + f64::from(STEPS) * fleet };
         let takes_s = begun.elapsed().as_secs_f64() * to_come / f64::from(steps.max(1));
         until.is_none_or(|until| steps == 0 || takes_s < seconds_until(until))
@@ -116,8 +123,8 @@ fn dive(
     Some(Dived { prices: Some(prices), schedule: best })
 }
 
-/// Plans the fleet one aircraft after another, each at a share of the prices. Returns `None` if no place is found for one of
-/// them, or if `stopped` is requested.
+/// Plans the fleet one aircraft after another, each at a share of the prices. Returns `None` if no
+/// place is found for one of them, or if `stopped` is requested.
 fn plan_one_by_one(
     problem: &Problem,
     rest: Rest,
@@ -190,8 +197,8 @@ impl Diver<'_> {
         Ok(())
     }
 
-    /// Takes back the plan of the aircraft that was planned last of those that start at a vertiport or come to it. Returns
-    /// `None` if there is no such aircraft.
+    /// Takes back the plan of the aircraft that was planned last of those that start at a vertiport
+    /// or come to it. Returns `None` if there is no such aircraft.
     fn make_room(&mut self, place: VertiportIx) -> Option<()> {
         let Self { problem, schedule, flights, .. } = self;
         let comes = |other: &AircraftIx| {

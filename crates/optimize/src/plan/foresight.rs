@@ -1,6 +1,8 @@
-//! Knowledge of the disturbances of a whole day: delays of take-offs, closures of routes, and outages of aircraft.
+//! Knowledge of the disturbances of a whole day: delays of take-offs, closures of routes, and
+//! outages of aircraft.
 //!
-//! A plan of a known day takes them into account exactly. Policies that decide while the day goes on do not know them.
+//! A plan of a known day takes them into account exactly. Policies that decide while the day goes
+//! on do not know them.
 
 use vertifleet_core::{AircraftIx, ClosedTimes, Disturbances, Scenario, Time, VertiportIx};
 
@@ -23,7 +25,8 @@ impl Foresight {
         (!disturbances.is_none()).then_some(Self { start, disturbances, closed })
     }
 
-    /// The landing of a flight of an aircraft from a vertiport, and the time at which the aircraft is ready again.
+    /// The landing of a flight of an aircraft from a vertiport, and the time at which the aircraft
+    /// is ready again.
     pub(super) fn landing(
         &self,
         aircraft: AircraftIx,

@@ -12,8 +12,8 @@ use crate::bound::Rest;
 
 const MINUTE_S: u32 = 60;
 
-/// Prices of stands and flights. Those of stands are running sums over time, so that the rent of any stay is one
-/// subtraction.
+/// Prices of stands and flights. Those of stands are running sums over time, so that the rent of
+/// any stay is one subtraction.
 #[derive(Debug, Clone)]
 pub(super) struct GuidingPrices {
     origin_s: u32,
@@ -21,8 +21,8 @@ pub(super) struct GuidingPrices {
     vertiports: usize,
     /// By minute, then vertiport: the price of a stand from the first minute until then, dollars.
     until_usd: Vec<f64>,
-    /// By type, then before or after those have left who waited, then cell: what a flight sells for, dollars. Empty if it is
-    /// not known.
+    /// By type, then before or after those have left who waited, then cell: what a flight sells
+    /// for, dollars. Empty if it is not known.
     flights_usd: Vec<f64>,
     cells: usize,
 }
@@ -74,7 +74,8 @@ impl GuidingPrices {
         !self.flights_usd.is_empty()
     }
 
-    /// The minute of a time, as [`rent_usd`](Self::rent_usd) takes it. Times outside the prices are free.
+    /// The minute of a time, as [`rent_usd`](Self::rent_usd) takes it. Times outside the prices are
+    /// free.
     #[inline]
     pub(super) fn minute(&self, time_s: u32) -> usize {
         ((time_s.saturating_sub(self.origin_s) / MINUTE_S) as usize).min(self.minutes)
@@ -87,7 +88,8 @@ impl GuidingPrices {
         until_usd(until) - until_usd(from)
     }
 
-    /// How much more a flight brings than it sells for, at least 0 dollars; 0 too if it is not known what flights sell for.
+    /// How much more a flight brings than it sells for, at least 0 dollars; 0 too if it is not
+    /// known what flights sell for.
     #[inline]
     pub(super) fn above_price_usd(
         &self,

@@ -1,9 +1,10 @@
 //! The best rest of the day for one aircraft while all others keep their flights.
 //!
-//! This is a longest path over labels (vertiport, second at which the aircraft is ready). From each label the aircraft
-//! flies to any vertiport that has a stand for it from take-off until it is ready again, or holds. Labels are settled
-//! forwards in time. Of the labels of one vertiport within one slot of time only the best is kept, which bounds the work.
-//! Each is exact to the second, so the result is feasible, but for vertiports with chargers beside stands
+//! This is a longest path over labels (vertiport, second at which the aircraft is ready). From each
+//! label the aircraft flies to any vertiport that has a stand for it from take-off until it is
+//! ready again, or holds. Labels are settled forwards in time. Of the labels of one vertiport
+//! within one slot of time only the best is kept, which bounds the work. Each is exact to the
+//! second, so the result is feasible, but for vertiports with chargers beside stands
 //! (`chargers.rs`).
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
@@ -19,16 +20,17 @@ use super::stand_times::{Moment, Window};
 /// Variation of a search, so that an itinerary is not always completed in the same way.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Bias {
-    /// Seconds, below [`slot_s`](ItinerarySearch::slot_s), by which slots begin earlier, so that another one of several close
-    /// labels is kept.
+    /// Seconds, below [`slot_s`](ItinerarySearch::slot_s), by which slots begin earlier, so that
+    /// another one of several close labels is kept.
     pub(super) shift_s: u32,
-    /// Share of the stand prices that the aircraft has to pay, so that it leaves scarce stands to others.
-    pub(super) rent_share: f64,
-    /// Share that the aircraft has to pay of what flights bring beyond what they sell for, so that it leaves passengers to
+    /// Share of the stand prices that the aircraft has to pay, so that it leaves scarce stands to
     /// others.
+    pub(super) rent_share: f64,
+    /// Share that the aircraft has to pay of what flights bring beyond what they sell for, so that
+    /// it leaves passengers to others.
     pub(super) flight_share: f64,
-    /// Most dollars by which the assumed profit of a flight is off, so that the aircraft may leave a flight to another,
-    /// or fly without profit to make room.
+    /// Most dollars by which the assumed profit of a flight is off, so that the aircraft may leave
+    /// a flight to another, or fly without profit to make room.
     pub(super) noise_usd: f64,
     /// Seed of the noise of each pair of vertiports and period.
     pub(super) noise_seed: u64,
@@ -54,8 +56,8 @@ struct Label {
 const NONE: u32 = u32::MAX;
 const UNREACHED: Label = Label { value_usd: f64::NEG_INFINITY, ready_s: 0, before: NONE };
 
-/// The best way found to the plan's end: its last label, and the destination of the flight from there that passes the
-/// end, if there is one.
+/// The best way found to the plan's end: its last label, and the destination of the flight from
+/// there that passes the end, if there is one.
 #[derive(Debug, Clone, Copy)]
 struct Finish {
     value_usd: f64,
@@ -66,20 +68,22 @@ struct Finish {
 /// The memory of the search, kept from one itinerary to the next.
 #[derive(Debug, Default)]
 pub(super) struct ItinerarySearch {
-    /// The length of a slot, in which only the best label of a vertiport is kept, is 2 to this power in seconds. No flight and no
-    /// hold is shorter, so every label leads to a later slot.
+    /// The length of a slot, in which only the best label of a vertiport is kept, is 2 to this
+    /// power in seconds. No flight and no hold is shorter, so every label leads to a later slot.
     slot_bits: u32,
     /// The best label by slot, then vertiport.
     labels: Vec<Label>,
-    /// The windows in which each vertiport has a stand for one more aircraft, vertiport by vertiport. Each list ends
-    /// with a window that never opens.
+    /// The windows in which each vertiport has a stand for one more aircraft, vertiport by
+    /// vertiport. Each list ends with a window that never opens.
     windows: Vec<Window>,
     /// The windows of the stands beside chargers, by vertiport. Empty on a day without such stands.
     beside_chargers: Vec<Vec<Window>>,
-    /// Whether the aircraft is on a stand beside chargers at each label. Empty on a day without such stands.
+    /// Whether the aircraft is on a stand beside chargers at each label. Empty on a day without
+    /// such stands.
     has_stand: Vec<bool>,
-    /// What a flight brings, but for its energy, dollars: by period, and whether passengers of the period before still wait, then
-    /// vertiport and number of the hop. A table is filled when the first flight of its time is looked at.
+    /// What a flight brings, but for its energy, dollars: by period, and whether passengers of the
+    /// period before still wait, then vertiport and number of the hop. A table is filled when the
+    /// first flight of its time is looked at.
     offers_usd: Vec<f64>,
     has_offers: Vec<bool>,
     /// Position in `windows` of the first window of each vertiport that has not closed yet.
@@ -101,7 +105,8 @@ struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// The difference between the assumed and the true profit of a flight of a pair and period, dollars.
+    /// The difference between the assumed and the true profit of a flight of a pair and period,
+    /// dollars.
     #[inline]
     fn noise_usd(&self, cell: usize) -> f64 {
         if self.bias.noise_usd == 0.0 {
@@ -157,8 +162,9 @@ impl ItinerarySearch {
         1 << self.slot_bits
     }
 
-    /// Writes the flights that complete the itinerary of `aircraft` best to `flights`. Returns `false` if the itinerary
-    /// cannot be completed, because others have taken every stand that the aircraft could stay at.
+    /// Writes the flights that complete the itinerary of `aircraft` best to `flights`. Returns
+    /// `false` if the itinerary cannot be completed, because others have taken every stand that the
+    /// aircraft could stay at.
     pub(super) fn complete(
         &mut self,
         problem: &Problem,
@@ -317,7 +323,8 @@ impl ItinerarySearch {
         self.reach(task, choice, place, ready_s, 0.0);
     }
 
-    /// Whether the aircraft can hold on a stand beside chargers, where it is already or one is free.
+    /// Whether the aircraft can hold on a stand beside chargers, where it is already or one is
+    /// free.
     #[inline]
     fn has_stand_beside_chargers(&self, task: &Task<'_>, choice: &Choice) -> bool {
         if task.problem.day.stands_beside_chargers(choice.place).is_none() {
@@ -342,7 +349,8 @@ impl ItinerarySearch {
         self.reach(task, choice, place, landing.ready_s, self.offers_usd[offer] - energy_usd);
     }
 
-    /// The window of a vertiport that contains a moment, which must not be before the slot that is being settled.
+    /// The window of a vertiport that contains a moment, which must not be before the slot that is
+    /// being settled.
     #[inline]
     fn window(&self, vertiport: VertiportIx, moment: Moment) -> Option<Window> {
         let mut at = self.current[vertiport.at()];
@@ -353,7 +361,8 @@ impl ItinerarySearch {
         (window.opens <= moment).then_some(window)
     }
 
-    /// Enters that the aircraft can be ready at a place at `ready_s`, if it can stay there until then.
+    /// Enters that the aircraft can be ready at a place at `ready_s`, if it can stay there until
+    /// then.
     #[inline]
     fn reach(
         &mut self,

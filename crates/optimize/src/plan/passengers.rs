@@ -1,16 +1,18 @@
-//! The passengers whom the flights of a schedule carry. The margin of one flight more or less is exact in whatever order
-//! flights are entered.
+//! The passengers whom the flights of a schedule carry. The margin of one flight more or less is
+//! exact in whatever order flights are entered.
 //!
-//! Those of a pair and period are min(demand, seats of its flights) in total, whichever flight they board. Where passengers
-//! wait into the next period, flights of its first seconds take those who have waited first, so what a flight carries
-//! depends on the flights of the period before, and a flight more or less changes what later ones carry.
+//! Those of a pair and period are min(demand, seats of its flights) in total, whichever flight they
+//! board. Where passengers wait into the next period, flights of its first seconds take those who
+//! have waited first, so what a flight carries depends on the flights of the period before, and a
+//! flight more or less changes what later ones carry.
 
 use super::day::Day;
 
 /// The passengers of every pair and period.
 #[derive(Debug, Clone)]
 pub(super) enum Passengers {
-    /// On a day on which they do not wait: demand less seats flown, by cell; negative where seats stay empty.
+    /// On a day on which they do not wait: demand less seats flown, by cell; negative where seats
+    /// stay empty.
     Leave(Vec<i64>),
     Wait(Waiting),
 }
@@ -71,7 +73,8 @@ impl Passengers {
         Self::Wait(Waiting { demand, seats, left_over, changed: Vec::new() })
     }
 
-    /// What one more flight with this number of seats would bring beyond the costs of its passengers, dollars.
+    /// What one more flight with this number of seats would bring beyond the costs of its
+    /// passengers, dollars.
     #[inline]
     pub(super) fn margin_usd(&self, day: &Day, departure: Departure, seats: i64) -> f64 {
         match self {
@@ -82,8 +85,8 @@ impl Passengers {
         }
     }
 
-    /// Adds so many seats to the flights of a pair, or removes them if negative. Returns by how much the margin of all
-    /// passengers grows, dollars.
+    /// Adds so many seats to the flights of a pair, or removes them if negative. Returns by how
+    /// much the margin of all passengers grows, dollars.
     pub(super) fn add(&mut self, day: &Day, departure: Departure, seats: i64) -> f64 {
         match self {
             Self::Leave(left) => {
@@ -98,7 +101,8 @@ impl Passengers {
 }
 
 impl Waiting {
-    /// Those of each cell who are left over when its period ends, less those whom flights of the next one carry.
+    /// Those of each cell who are left over when its period ends, less those whom flights of the
+    /// next one carry.
     fn left(&self, day: &Day) -> impl Iterator<Item = i64> {
         let next = self.seats.iter().skip(day.vertiports * day.vertiports);
         let early = next.map(|seats| seats.early).chain(std::iter::repeat(0));
@@ -117,8 +121,8 @@ impl Waiting {
         usd
     }
 
-    /// By how much the margin of all passengers grows with so many more seats, dollars. Calls `see` with each cell on which
-    /// this has an effect, and those of it who are then left over.
+    /// By how much the margin of all passengers grows with so many more seats, dollars. Calls `see`
+    /// with each cell on which this has an effect, and those of it who are then left over.
     fn change_usd(
         &self,
         day: &Day,
@@ -147,7 +151,8 @@ impl Waiting {
         }
     }
 
-    /// The passengers on the flights of a cell, of whom `waited` wanted to fly in the period before.
+    /// The passengers on the flights of a cell, of whom `waited` wanted to fly in the period
+    /// before.
     fn carried(&self, cell: usize, waited: i64, seats: Seats) -> Carried {
         let of_before = waited.min(seats.early);
         let early = self.demand[cell].min(seats.early - of_before);

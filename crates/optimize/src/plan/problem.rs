@@ -14,7 +14,8 @@ pub(super) struct Problem {
     pub(super) places: Vec<VertiportIx>,
     /// Passengers by period, then from, then to.
     pub(super) demand: Vec<u32>,
-    /// Mean over pairs and periods of the margin of a flight with every seat taken, before the cost of flying; dollars.
+    /// Mean over pairs and periods of the margin of a flight with every seat taken, before the cost
+    /// of flying; dollars.
     pub(super) full_flight_usd: f64,
 }
 

@@ -1,4 +1,5 @@
-//! A schedule: the flights of each aircraft. Holds, passengers on board and stands taken follow from them.
+//! A schedule: the flights of each aircraft. Holds, passengers on board and stands taken follow
+//! from them.
 
 use vertifleet_core::{AircraftIx, VertiportIx};
 
@@ -16,8 +17,9 @@ pub(super) struct Flight {
     pub(super) to: VertiportIx,
 }
 
-/// The flights of one aircraft. An itinerary is *whole* once it reaches the end of the plan. Before that its aircraft
-/// vanishes when it is ready after its last flight, and its stand is free from then on.
+/// The flights of one aircraft. An itinerary is *whole* once it reaches the end of the plan. Before
+/// that its aircraft vanishes when it is ready after its last flight, and its stand is free from
+/// then on.
 #[derive(Debug, Clone)]
 pub(super) struct Itinerary {
     place: VertiportIx,
@@ -26,7 +28,8 @@ pub(super) struct Itinerary {
     whole: bool,
 }
 
-/// The flights of the fleet, with the stands that they take, the demand that they leave and their profit.
+/// The flights of the fleet, with the stands that they take, the demand that they leave and their
+/// profit.
 #[derive(Debug, Clone)]
 pub(super) struct Schedule {
     itineraries: Vec<Itinerary>,
@@ -81,7 +84,8 @@ impl Schedule {
         self.itineraries[aircraft.at()].whole
     }
 
-    /// The vertiport of the aircraft after its last flight, and the second at which it is ready there.
+    /// The vertiport of the aircraft after its last flight, and the second at which it is ready
+    /// there.
     pub(super) fn open_end(&self, day: &Day, aircraft: AircraftIx) -> (VertiportIx, u32) {
         let itinerary = &self.itineraries[aircraft.at()];
         match itinerary.flights.last() {
@@ -93,7 +97,8 @@ impl Schedule {
         }
     }
 
-    /// Removes the flights from the one at `first` on from a whole itinerary, and appends them to `taken_out`.
+    /// Removes the flights from the one at `first` on from a whole itinerary, and appends them to
+    /// `taken_out`.
     pub(super) fn cut(
         &mut self,
         problem: &Problem,
@@ -167,7 +172,8 @@ impl Schedule {
         self.beside_chargers = Some(beside);
     }
 
-    /// The stays of an aircraft. If its itinerary is not whole, it leaves the last one when it is ready.
+    /// The stays of an aircraft. If its itinerary is not whole, it leaves the last one when it is
+    /// ready.
     fn stays(&self, day: &Day, aircraft: AircraftIx) -> Vec<Stay> {
         let Itinerary { place, ready_s, flights, whole } = &self.itineraries[aircraft.at()];
         let (comes, leaves) = (Moment::FIRST, Moment::NEVER);
@@ -189,7 +195,8 @@ impl Schedule {
         stays
     }
 
-    /// Adds a flight to the account (`sign` 1) or removes it (-1). Returns by how much the profit grows, dollars.
+    /// Adds a flight to the account (`sign` 1) or removes it (-1). Returns by how much the profit
+    /// grows, dollars.
     fn enter_account(&mut self, day: &Day, aircraft: AircraftIx, flight: Flight, sign: i64) -> f64 {
         let hop = day.hop(day.kind(aircraft), flight.from, flight.to);
         let period = day.period_from(0, flight.take_off_s);
@@ -201,7 +208,8 @@ impl Schedule {
         margin_usd - sign as f64 * cost_usd
     }
 
-    /// Sets the profit to an earlier amount, so that undoing a change leaves no rounding error behind.
+    /// Sets the profit to an earlier amount, so that undoing a change leaves no rounding error
+    /// behind.
     pub(super) fn set_value_usd(&mut self, value_usd: f64) {
         self.value_usd = value_usd;
     }

@@ -1,9 +1,11 @@
-//! Large-neighbourhood search with annealing: remove the rest of the day from the itineraries of a few aircraft,
-//! complete the itineraries one by one in the best way, and keep the result if it is better, or only a little worse.
+//! Large-neighbourhood search with annealing: remove the rest of the day from the itineraries of a
+//! few aircraft, complete the itineraries one by one in the best way, and keep the result if it is
+//! better, or only a little worse.
 //!
-//! P. Shaw, *Using constraint programming and local search methods to solve vehicle routing problems* (1998), for the
-//! neighbourhood; S. Ropke and D. Pisinger, *An adaptive large neighborhood search heuristic for the pickup and
-//! delivery problem with time windows* (2006), for acceptance by annealing.
+//! P. Shaw, *Using constraint programming and local search methods to solve vehicle routing
+//! problems* (1998), for the neighbourhood; S. Ropke and D. Pisinger, *An adaptive large
+//! neighborhood search heuristic for the pickup and delivery problem with time windows* (2006), for
+//! acceptance by annealing.
 
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
@@ -17,17 +19,18 @@ use super::schedule::{Flight, Schedule};
 
 /// Most aircraft whose itineraries are changed at once.
 const MOST_TAKEN_OUT: usize = 4;
-/// How often aircraft are chosen that leave one vertiport at about the same time; otherwise any are. Without such
-/// choices, days of `paper` earned 0.1 % less after 50,000 steps.
+/// How often aircraft are chosen that leave one vertiport at about the same time; otherwise any
+/// are. Without such choices, days of `paper` earned 0.1 % less after 50,000 steps.
 const TOGETHER: f64 = 0.5;
 /// Two take-offs are at about the same time if they are this many seconds apart, or less.
 const SAME_TIME_S: u32 = 1_800;
-/// How often itineraries are changed from the start of the day on; otherwise from a random moment of the day.
+/// How often itineraries are changed from the start of the day on; otherwise from a random moment
+/// of the day.
 const WHOLE_DAYS: f64 = 0.1;
-/// Most by which the assumed profit of a flight is off in a noisy step, in full flights. The noise is Ropke and
-/// Pisinger's: without it no aircraft leaves a flight to another that earns more with it, or flies empty to make room.
-/// Of 2,680 days that are small enough to be searched exhaustively, 2,000 steps without noise missed the optimum of 30;
-/// with noise, of 4.
+/// Most by which the assumed profit of a flight is off in a noisy step, in full flights. The noise
+/// is Ropke and Pisinger's: without it no aircraft leaves a flight to another that earns more with
+/// it, or flies empty to make room. Of 2,680 days that are small enough to be searched
+/// exhaustively, 2,000 steps without noise missed the optimum of 30; with noise, of 4.
 const MOST_NOISE: f64 = 3.0;
 
 /// One search: its current schedule, the best one it has found, and its memory.
@@ -49,7 +52,8 @@ struct TakenOut {
     aircraft: Vec<AircraftIx>,
     /// Number of flights that each aircraft keeps.
     kept: Vec<usize>,
-    /// The removed flights, one aircraft's after another's, and in `ends` the position after the last of each aircraft.
+    /// The removed flights, one aircraft's after another's, and in `ends` the position after the
+    /// last of each aircraft.
     flights: Vec<Flight>,
     ends: Vec<usize>,
 }
@@ -131,8 +135,8 @@ impl Search {
         }
     }
 
-    /// Completes the itineraries in the order in which they were chosen. Returns whether all of them could be completed, and
-    /// every vertiport has enough chargers.
+    /// Completes the itineraries in the order in which they were chosen. Returns whether all of
+    /// them could be completed, and every vertiport has enough chargers.
     fn put_back(&mut self, problem: &Problem, prices: &GuidingPrices) -> bool {
         let rent_share = self.random.random::<f64>();
         let flight_share = if prices.are_of_flights() { self.random.random::<f64>() } else { 0.0 };
@@ -165,8 +169,8 @@ impl Search {
         self.current.overfull().is_none()
     }
 
-    /// The noise of this step. Most steps have none, and in larger fleets even fewer, because there are other ways to
-    /// make room.
+    /// The noise of this step. Most steps have none, and in larger fleets even fewer, because there
+    /// are other ways to make room.
     fn draw_noise_usd(&mut self, problem: &Problem) -> f64 {
         if self.random.random_range(0..problem.day.fleet().len()) > 0 {
             return 0.0;
@@ -174,7 +178,8 @@ impl Search {
         MOST_NOISE * problem.full_flight_usd * self.random.random::<f64>()
     }
 
-    /// Gives every chosen aircraft its flights back. Aircraft that have others by now lose them first.
+    /// Gives every chosen aircraft its flights back. Aircraft that have others by now lose them
+    /// first.
     fn undo(&mut self, problem: &Problem) {
         let TakenOut { aircraft, kept, flights, ends } = &self.taken_out;
         for (&aircraft, &kept) in aircraft.iter().zip(kept) {
@@ -221,7 +226,8 @@ mod tests {
         let seed = DaySeed::validation(9).expect("a seed");
         let mut day = with_chargers.draw(seed).into_day();
         account_is_the_simulators(&Arc::new(day.clone().check("a day").expect("a day")));
-        // The first moment of a day that begins at midnight is another than that of an aircraft that starts there.
+        // The first moment of a day that begins at midnight is another than that of an aircraft
+        // that starts there.
         day.operations.start = Time::from_seconds(0);
         day.periods[0] = day.operations.start;
         account_is_the_simulators(&Arc::new(day.check("a day").expect("a day")));
@@ -233,7 +239,8 @@ mod tests {
         let start = start::best_policy(day, Vec::new(), &mut |_, _| true);
         let mut search = Search::new(&problem, start::schedule_of(&problem, &start.trace), 3);
         for step in 0..300 {
-            // The temperature alternates between hot and cold, so that steps are kept as well as undone.
+            // The temperature alternates between hot and cold, so that steps are kept as well as
+            // undone.
             search.step(&problem, &prices, f64::from(step % 5) * 20.0 + 0.1);
             assert!(search.current.stands.suffice(), "step {step}");
             assert_eq!(search.current.overfull(), None, "step {step}");

@@ -17,8 +17,8 @@ use crate::proof::POLL_INTERVAL;
 
 /// Rounds after which the search with the worst schedule continues from the best one's.
 const ROUNDS_A_MEETING: u64 = 100;
-/// Temperatures at which annealing begins and ends, dollars. From 20, days of `paper` earned 0.2 % less after 100,000
-/// steps, because that is too hot for a search that starts from a good day.
+/// Temperatures at which annealing begins and ends, dollars. From 20, days of `paper` earned 0.2 %
+/// less after 100,000 steps, because that is too hot for a search that starts from a good day.
 const HOT_USD: f64 = 4.0;
 const COLD_USD: f64 = 1.0;
 
@@ -36,8 +36,8 @@ pub(super) struct Searches<'a> {
 }
 
 impl<'a> Searches<'a> {
-    /// Searches that begin with a schedule. The prices and the schedule of the dive join them: with a limit of time when it
-    /// has come to an end, otherwise before the first step.
+    /// Searches that begin with a schedule. The prices and the schedule of the dive join them: with
+    /// a limit of time when it has come to an end, otherwise before the first step.
     pub(super) fn begin(
         scenario: &'a Arc<Scenario>,
         settings: &'a SearchSettings,
@@ -85,7 +85,8 @@ impl<'a> Searches<'a> {
         }
     }
 
-    /// If the dive has come to an end, its prices guide the searches from now on, and one begins with its schedule.
+    /// If the dive has come to an end, its prices guide the searches from now on, and one begins
+    /// with its schedule.
     fn join_dive(&mut self, clock: &Clock) {
         let patience = if clock.waits_for_dive() { POLL_INTERVAL } else { Duration::ZERO };
         let outcome = self.dive.as_ref().and_then(|dive| dive.outcome(patience));
@@ -118,8 +119,8 @@ impl<'a> Searches<'a> {
         taken
     }
 
-    /// Lets the search with the worst schedule continue from the best one's. If there are more than there should be, it
-    /// ends.
+    /// Lets the search with the worst schedule continue from the best one's. If there are more than
+    /// there should be, it ends.
     fn meet(&mut self) {
         let value = |&at: &usize| self.all[at].current.value_usd();
         let by_value = |one: &usize, other: &usize| value(one).total_cmp(&value(other));

@@ -1,8 +1,9 @@
 //! The times at which aircraft take and free stands (Eq. 16), for a whole schedule at once.
 //!
-//! Events of a day are totally ordered by time, then aircraft; a [`Moment`] is a place in that order. A stand is taken
-//! at take-off towards a vertiport and freed at take-off from it, so the number of stands taken is a step function over
-//! moments. One more aircraft fits wherever that number stays below U_max: in the *windows*.
+//! Events of a day are totally ordered by time, then aircraft; a [`Moment`] is a place in that
+//! order. A stand is taken at take-off towards a vertiport and freed at take-off from it, so the
+//! number of stands taken is a step function over moments. One more aircraft fits wherever that
+//! number stays below U_max: in the *windows*.
 
 use vertifleet_core::{AircraftIx, VertiportIx};
 
@@ -15,7 +16,8 @@ impl Moment {
     pub(super) const FIRST: Self = Self(0);
     /// The moment after every event.
     pub(super) const NEVER: Self = Self(u32::MAX);
-    /// Fleets have at most 10,000 aircraft, and decisions are taken before 36:00:00, which is below 2^17 seconds.
+    /// Fleets have at most 10,000 aircraft, and decisions are taken before 36:00:00, which is below
+    /// 2^17 seconds.
     const AIRCRAFT_BITS: u32 = 14;
 
     #[inline]
@@ -71,7 +73,8 @@ impl StandTimes {
         self.limit[vertiport.at()]
     }
 
-    /// Replaces all changes of a vertiport. From then on, what is entered for it one by one is ignored.
+    /// Replaces all changes of a vertiport. From then on, what is entered for it one by one is
+    /// ignored.
     pub(super) fn replace(&mut self, vertiport: VertiportIx, at_first: i32, changes: Vec<Change>) {
         self.replaced[vertiport.at()] = true;
         self.taken_at_first[vertiport.at()] = at_first;
@@ -102,7 +105,8 @@ impl StandTimes {
         changes.insert(at, change);
     }
 
-    /// Removes the change that was entered for this moment. No two changes of a vertiport share a moment.
+    /// Removes the change that was entered for this moment. No two changes of a vertiport share a
+    /// moment.
     pub(super) fn take_back(&mut self, vertiport: VertiportIx, moment: Moment) {
         if self.replaced[vertiport.at()] {
             return;

@@ -84,8 +84,9 @@ fn where_nothing_is_scarce_the_bound_is_the_optimum() {
     assert!(compared >= 40, "{compared} days have few enough sequences");
 }
 
-/// A day on which the bound equals the optimum: one aircraft, passengers for every flight who all pay more than they
-/// cost, electricity at one price, no outages, and routes that close and open only when a demand period begins.
+/// A day on which the bound equals the optimum: one aircraft, passengers for every flight who all
+/// pay more than they cost, electricity at one price, no outages, and routes that close and open
+/// only when a demand period begins.
 fn ample_disturbed_day(number: u64) -> Arc<Scenario> {
     let day = any_extended_day(number, Size { vertiports: 3, fleet: 1, hours: 4 });
     let mut ample = Scenario::clone(&day).into_day();

@@ -34,7 +34,8 @@ fn begun(day: &Arc<Scenario>, policy: &mut dyn Policy, decisions: u32) -> LiveDa
     live
 }
 
-/// The highest profit of any way to go on, by trying them all; `None` if there are more than `most`.
+/// The highest profit of any way to go on, by trying them all; `None` if there are more than
+/// `most`.
 fn best_of_rest(rest: &mut Imagined, most: &mut u32) -> Option<f64> {
     let Some(decision) = rest.next_decision() else {
         *most = most.checked_sub(1)?;

@@ -1,4 +1,5 @@
-//! The bound of all designs: with any fleet and any number of stands, no policy earns or carries more.
+//! The bound of all designs: with any fleet and any number of stands, no policy earns or carries
+//! more.
 
 use std::sync::Arc;
 
@@ -40,7 +41,8 @@ fn without_outages(day: &Scenario) -> Scenario {
     day.check("a day without outages").expect("a day within the rules")
 }
 
-/// The day with other numbers of stands and of aircraft, which start elsewhere and of which some fail.
+/// The day with other numbers of stands and of aircraft, which start elsewhere and of which some
+/// fail.
 fn redesigned(day: &Scenario, mix: u32) -> Scenario {
     let mut day = day.clone().into_day();
     let types = day.aircraft_types.len();

@@ -2,7 +2,8 @@
 
 use vertifleet_sim::Simulation;
 
-/// The highest profit of any sequence of decisions, by trying them all; `None` if there are more than `most` of them.
+/// The highest profit of any sequence of decisions, by trying them all; `None` if there are more
+/// than `most` of them.
 pub(crate) fn best_of_all(simulation: &mut Simulation, most: &mut u32) -> Option<f64> {
     let Some(decision) = simulation.next_decision() else {
         *most = most.checked_sub(1)?;

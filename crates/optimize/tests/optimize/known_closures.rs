@@ -1,5 +1,5 @@
-//! Closures at given times: bound and planner know all closures of a day, the rolling horizon only those that are known
-//! in advance.
+//! Closures at given times: bound and planner know all closures of a day, the rolling horizon only
+//! those that are known in advance.
 
 use std::sync::Arc;
 
@@ -8,7 +8,8 @@ use vertifleet_optimize::{Budget, Rolling, SearchSettings, Step, plan, upper_bou
 use vertifleet_policy::play;
 use vertifleet_sim::{Simulation, Trace, check::check};
 
-/// A day of `paper` with 8 aircraft. Unless `known` is `None`, the first two vertiports are closed from 14:00 on.
+/// A day of `paper` with 8 aircraft. Unless `known` is `None`, the first two vertiports are closed
+/// from 14:00 on.
 fn day(seed: u64, known: Option<bool>) -> Arc<Scenario> {
     let network = Network::shipped("paper").expect("a shipped network");
     let mut day = network.draw(DaySeed::validation(seed).expect("a seed")).into_day();

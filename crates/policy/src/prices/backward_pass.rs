@@ -1,9 +1,10 @@
-//! The pass from the end of the day back to the first slot, which values being ready anywhere at any time for one type
-//! of aircraft.
+//! The pass from the end of the day back to the first slot, which values being ready anywhere at
+//! any time for one type of aircraft.
 //!
-//! No flight ends within its first few slots, so that as many slots can be valued side by side in the lanes of the
-//! machine's vectors: every hop of a vertiport is then looked at once for all of these slots. Each lane computes what a
-//! scalar would, so results do not depend on the width of a vector. This loop takes most of the time of a search.
+//! No flight ends within its first few slots, so that as many slots can be valued side by side in
+//! the lanes of the machine's vectors: every hop of a vertiport is then looked at once for all of
+//! these slots. Each lane computes what a scalar would, so results do not depend on the width of a
+//! vector. This loop takes most of the time of a search.
 
 use std::ops::Range;
 
@@ -63,7 +64,8 @@ struct Block {
     first_lane: usize,
     /// The interval of the last boundary.
     interval: usize,
-    /// Where some of the boundaries are of the interval before it: that interval, and the first boundary that is not.
+    /// Where some of the boundaries are of the interval before it: that interval, and the first
+    /// boundary that is not.
     change: Option<(usize, usize)>,
 }
 
@@ -122,9 +124,9 @@ fn load<S: Simd>(lanes: &[f64]) -> S::f64s {
 }
 
 impl<S: Simd> Best<S> {
-    /// Looks at a hop to a destination that comes after those looked at before. Its gain is given for
-    /// the earlier and the later interval. Some lanes may end past the end of operations only if `LATE`, and be of the
-    /// earlier interval only if `MIXED`.
+    /// Looks at a hop to a destination that comes after those looked at before. Its gain is given
+    /// for the earlier and the later interval. Some lanes may end past the end of operations only
+    /// if `LATE`, and be of the earlier interval only if `MIXED`.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn look_at<const LATE: bool, const MIXED: bool>(
@@ -227,8 +229,8 @@ impl BackwardPass<'_> {
         best
     }
 
-    /// Enters the better of the best hop and a hold at the boundaries of a block. It starts with the last boundary,
-    /// because a hold may lead from one of them to another.
+    /// Enters the better of the best hop and a hold at the boundaries of a block. It starts with
+    /// the last boundary, because a hold may lead from one of them to another.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn hold_or_fly(

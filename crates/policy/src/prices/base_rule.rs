@@ -1,8 +1,10 @@
-//! The base rule, by which the fleet is expected to decide: the prices, the prices without repositioning, or greedy.
+//! The base rule, by which the fleet is expected to decide: the prices, the prices without
+//! repositioning, or greedy.
 //!
-//! Prices that a search has not settled promise too much. Where demand is thin, each aircraft of the fleet counts on
-//! the same few passengers, and repositioning towards them costs more than it earns. Once an hour the rest of the day
-//! is therefore played out as expected under each rule, and the rule that earns the most decides until the next time.
+//! Prices that a search has not settled promise too much. Where demand is thin, each aircraft of
+//! the fleet counts on the same few passengers, and repositioning towards them costs more than it
+//! earns. Once an hour the rest of the day is therefore played out as expected under each rule, and
+//! the rule that earns the most decides until the next time.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, Imagined, View};
@@ -15,14 +17,16 @@ use crate::Greedy;
 pub(super) enum BaseRule {
     /// Takes the choice that is worth most at the prices.
     Prices,
-    /// Takes the choice that is worth most at the prices among holding and the flights that carry passengers.
+    /// Takes the choice that is worth most at the prices among holding and the flights that carry
+    /// passengers.
     PricesCarrying,
     /// Takes the flight with the highest profit per hour.
     Greedy,
 }
 
 impl BaseRule {
-    /// The rule under which the rest of the day, played out as expected, earns the most; of equals, the first.
+    /// The rule under which the rest of the day, played out as expected, earns the most; of equals,
+    /// the first.
     pub(super) fn best(prices: &DayPrices, view: View<'_>, room: &mut Option<Imagined>) -> Self {
         let mut played_out = |rule: Self| {
             let day = view.imagined_in(room);

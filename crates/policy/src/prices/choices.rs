@@ -1,4 +1,5 @@
-//! The worth of the choices of one decision at given prices: what is the same for all of them is looked up once.
+//! The worth of the choices of one decision at given prices: what is the same for all of them is
+//! looked up once.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, Departures, View};
@@ -33,8 +34,9 @@ impl<'a> Choices<'a> {
         }
     }
 
-    /// Worth of a choice within range, dollars: the profit of its flight and the worth of being ready at its end, less
-    /// the price of the stand until then. Later flights pay for their passengers; this one does not.
+    /// Worth of a choice within range, dollars: the profit of its flight and the worth of being
+    /// ready at its end, less the price of the stand until then. Later flights pay for their
+    /// passengers; this one does not.
     #[inline]
     pub fn worth_usd(&self, to: VertiportIx) -> f64 {
         if to == self.own {

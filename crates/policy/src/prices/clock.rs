@@ -2,8 +2,8 @@
 
 use vertifleet_sim::View;
 
-/// Length of a slot, seconds. Prices of shorter slots took longer and earned no more; those of 5 minutes earned 0.3 %
-/// less.
+/// Length of a slot, seconds. Prices of shorter slots took longer and earned no more; those of 5
+/// minutes earned 0.3 % less.
 pub(super) const SLOT_S: u32 = 180;
 
 /// So many seconds as a share of a slot, because divisions are slow.
@@ -17,8 +17,8 @@ static SHARES: [f64; SLOT_S as usize] = {
     shares
 };
 
-/// The position of a time in the table of slots: the boundary before it, and its distance from there as a share of a
-/// slot.
+/// The position of a time in the table of slots: the boundary before it, and its distance from
+/// there as a share of a slot.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) slot: usize,

@@ -11,8 +11,8 @@ pub(super) struct Ready {
     pub(super) at_s: u32,
 }
 
-/// All aircraft, and those that are alike as groups: they take the same way, so one of each group shows it. In the
-/// morning, when every aircraft is ready, there are as few groups as vertiports.
+/// All aircraft, and those that are alike as groups: they take the same way, so one of each group
+/// shows it. In the morning, when every aircraft is ready, there are as few groups as vertiports.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Fleet {
     aircraft: Vec<Ready>,

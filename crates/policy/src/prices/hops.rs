@@ -1,4 +1,5 @@
-//! The flights that aircraft of each type may make from each vertiport, and their profit in each interval of the day.
+//! The flights that aircraft of each type may make from each vertiport, and their profit in each
+//! interval of the day.
 
 use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_sim::View;
@@ -7,16 +8,16 @@ use super::clock::{Clock, SLOT_S};
 use super::intervals::Intervals;
 use super::quads::Quads;
 
-/// Number of demand periods for which a route that is closed unexpectedly is assumed to stay closed: the current one
-/// and the next. The actual duration is not known. On 60 days of `disrupted`, 1, 3 and all periods earned a little
-/// less, within chance.
+/// Number of demand periods for which a route that is closed unexpectedly is assumed to stay
+/// closed: the current one and the next. The actual duration is not known. On 60 days of
+/// `disrupted`, 1, 3 and all periods earned a little less, within chance.
 const CLOSED_PERIODS: usize = 2;
 
 /// A flight or a hold, measured in slots from its decision until the aircraft is ready again.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stay {
-    /// Whole slots, and in `share` the remaining part of a slot. A stay of less than a slot counts as one slot, because
-    /// the worth at the boundary before it is not known yet.
+    /// Whole slots, and in `share` the remaining part of a slot. A stay of less than a slot counts
+    /// as one slot, because the worth at the boundary before it is not known yet.
     pub(super) slots: usize,
     pub(super) share: f64,
     /// The first boundary from which the stay ends past the end of operations.
@@ -66,7 +67,8 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Hops {
     vertiports: usize,
     all: Vec<Hop>,
-    /// The position at which the hops of each type and vertiport begin, and at the end the number of hops.
+    /// The position at which the hops of each type and vertiport begin, and at the end the number
+    /// of hops.
     begins: Vec<usize>,
     /// By type, then pair.
     flights: Vec<Flight>,
@@ -74,11 +76,12 @@ pub(super) struct Hops {
     /// By hop: the position of its gain among the gains of an interval.
     gain_at: Vec<u32>,
     pub(super) intervals: Intervals,
-    /// By interval, then hop: its profit in dollars before its passengers are paid for, and in `passengers` the number
-    /// of its passengers.
+    /// By interval, then hop: its profit in dollars before its passengers are paid for, and in
+    /// `passengers` the number of its passengers.
     profit_usd: Vec<f64>,
     passengers: Vec<f64>,
-    /// By interval, then hop in the order of quads: its profit in dollars at the latest prices of passengers.
+    /// By interval, then hop in the order of quads: its profit in dollars at the latest prices of
+    /// passengers.
     gain_usd: Vec<f64>,
 }
 
@@ -192,8 +195,8 @@ impl Hops {
         }
     }
 
-    /// Deducts the prices of passengers, given by period and then pair, from all flights of the demand periods from
-    /// `first` on.
+    /// Deducts the prices of passengers, given by period and then pair, from all flights of the
+    /// demand periods from `first` on.
     pub(super) fn charge_all(&mut self, first: usize, price_usd: &[f64]) {
         let (count, pairs) = (self.all.len(), self.vertiports * self.vertiports);
         let first = self.intervals.first_of(first);
@@ -246,8 +249,8 @@ fn flights(hops: &[Hop], begins: &[usize], vertiports: usize) -> Vec<Flight> {
     flights
 }
 
-/// Price of the energy of flights of a given duration that take off in a period, dollars per kWh: the mean, over the
-/// take-offs, of the price at arrival.
+/// Price of the energy of flights of a given duration that take off in a period, dollars per kWh:
+/// the mean, over the take-offs, of the price at arrival.
 fn energy_price_usd(view: View<'_>, period: usize, flight_s: u32) -> f64 {
     let (starts, prices) = (view.period_starts(), view.energy_prices_usd());
     let (begin, price_usd) = (starts[period], prices[period]);

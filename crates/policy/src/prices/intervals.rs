@@ -1,5 +1,5 @@
-//! The day cut into intervals. Within an interval the same flights may leave, with the same profit: intervals are
-//! demand periods, cut once more where known closures begin and end.
+//! The day cut into intervals. Within an interval the same flights may leave, with the same profit:
+//! intervals are demand periods, cut once more where known closures begin and end.
 
 use std::ops::Range;
 
@@ -13,7 +13,8 @@ use super::clock::Clock;
 pub(super) struct Interval {
     /// Its demand period.
     pub(super) period: usize,
-    /// Start of its first slot. A route that is known to be closed then is closed at the start of each of its slots.
+    /// Start of its first slot. A route that is known to be closed then is closed at the start of
+    /// each of its slots.
     begin: Time,
 }
 
@@ -36,8 +37,8 @@ pub(super) struct Intervals {
     pub(super) all: Vec<Interval>,
     /// The interval of each slot.
     pub(super) of_slot: Vec<usize>,
-    /// By demand period, and at the end for the time after the last one: the first interval in which it, or a later
-    /// one, is in force.
+    /// By demand period, and at the end for the time after the last one: the first interval in
+    /// which it, or a later one, is in force.
     begins: Vec<usize>,
 }
 

@@ -1,8 +1,9 @@
-//! The hops as the backward pass looks at them: from four vertiports at a time, in the order of their destinations.
+//! The hops as the backward pass looks at them: from four vertiports at a time, in the order of
+//! their destinations.
 //!
-//! What is known of a destination is then read once for the hops from four vertiports, and the four comparisons do not
-//! wait for each other. A vertiport of a quad may have no hop to a destination that another one has; its gain there
-//! stays minus infinity, so it is never the best.
+//! What is known of a destination is then read once for the hops from four vertiports, and the four
+//! comparisons do not wait for each other. A vertiport of a quad may have no hop to a destination
+//! that another one has; its gain there stays minus infinity, so it is never the best.
 
 use vertifleet_core::{TypeIx, VertiportIx};
 
@@ -15,10 +16,11 @@ pub(super) const QUAD: usize = 4;
 #[derive(Debug, Clone)]
 pub(super) struct Quads {
     all: Vec<QuadHops>,
-    /// The position in `all` at which the hops of each type and quad begin, and at the end the number of all.
+    /// The position in `all` at which the hops of each type and quad begin, and at the end the
+    /// number of all.
     begins: Vec<usize>,
-    /// By type: the least number of slots that a hop takes, and the first boundary from which any ends past the end of
-    /// operations.
+    /// By type: the least number of slots that a hop takes, and the first boundary from which any
+    /// ends past the end of operations.
     shortest: Vec<usize>,
     first_late: Vec<f64>,
 }
@@ -59,7 +61,8 @@ pub(super) struct QuadsOfKind<'a> {
 }
 
 impl Quads {
-    /// Lays out hops, given as the stay of each type from one vertiport to another where there is a hop.
+    /// Lays out hops, given as the stay of each type from one vertiport to another where there is a
+    /// hop.
     pub(super) fn of(
         (kinds, vertiports): (usize, usize),
         stay: impl Fn(TypeIx, VertiportIx, VertiportIx) -> Option<Stay>,
@@ -103,8 +106,8 @@ impl Quads {
         QUAD * self.all.len()
     }
 
-    /// The position of the gain of the hop of a type from one vertiport to another among the gains of an interval. The
-    /// hop must exist.
+    /// The position of the gain of the hop of a type from one vertiport to another among the gains
+    /// of an interval. The hop must exist.
     pub(super) fn gain_at(
         &self,
         kind: TypeIx,

@@ -1,11 +1,12 @@
-//! Destinations in the order of the most that a flight to each can be worth, so that the best is found with a look at a
-//! few of them.
+//! Destinations in the order of the most that a flight to each can be worth, so that the best is
+//! found with a look at a few of them.
 //!
-//! Roll-outs look at all destinations of every decision, and on a day of 100 vertiports this takes nearly all of their
-//! time. While prices stay as they are, what a flight can be worth if it is decided in a slot has a bound: all seats are
-//! full, the energy is as cheap and the worth of being ready as high as at any time in the slot. The destinations are
-//! sorted by this bound once. A decision then looks at them from the highest bound on, and stops where the bound of the
-//! next is below the worth of the best that it has seen. It finds what a look at all of them finds.
+//! Roll-outs look at all destinations of every decision, and on a day of 100 vertiports this takes
+//! nearly all of their time. While prices stay as they are, what a flight can be worth if it is
+//! decided in a slot has a bound: all seats are full, the energy is as cheap and the worth of being
+//! ready as high as at any time in the slot. The destinations are sorted by this bound once. A
+//! decision then looks at them from the highest bound on, and stops where the bound of the next is
+//! below the worth of the best that it has seen. It finds what a look at all of them finds.
 
 use std::ops::Range;
 
@@ -19,8 +20,8 @@ use super::values::ValueTable;
 /// More than the error of a sum of a few floating-point numbers, dollars.
 const ROUNDING_USD: f64 = 1e-6;
 
-/// A destination with the most dollars that a flight to it can be worth, and by how much less at least for each seat
-/// that stays empty. Single precision halves the memory that is read.
+/// A destination with the most dollars that a flight to it can be worth, and by how much less at
+/// least for each seat that stays empty. Single precision halves the memory that is read.
 #[derive(Debug, Clone, Copy)]
 struct Most {
     usd: f32,
@@ -34,7 +35,8 @@ pub(super) struct Ranks {
     clock: Clock,
     vertiports: usize,
     slots: Range<usize>,
-    /// For each type and vertiport, and at the end: the number of destinations of all before it, in one slot.
+    /// For each type and vertiport, and at the end: the number of destinations of all before it, in
+    /// one slot.
     begins: Vec<usize>,
     all: Vec<Most>,
 }
@@ -98,8 +100,9 @@ impl Ranks {
 pub(super) struct Ranked<'a>(&'a [Most]);
 
 impl Ranked<'_> {
-    /// The choice that is worth most, of equals the vertiport listed first, if something is added to the worth of each:
-    /// `added_usd`, which is at most `most_added_usd`. `open` are the choices to be looked at.
+    /// The choice that is worth most, of equals the vertiport listed first, if something is added
+    /// to the worth of each: `added_usd`, which is at most `most_added_usd`. `open` are the choices
+    /// to be looked at.
     #[inline]
     pub(super) fn best(
         self,

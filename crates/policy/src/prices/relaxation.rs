@@ -1,9 +1,9 @@
-//! The decisions of the fleet at given prices: every aircraft takes the way through the rest of the day that is worth
-//! most to it.
+//! The decisions of the fleet at given prices: every aircraft takes the way through the rest of the
+//! day that is worth most to it.
 //!
-//! One pass from the end of the day back to now computes the worth of being ready anywhere at any time (`values.rs`). A
-//! second pass, forwards, follows each aircraft along its best way and counts the stands and passengers that it asks
-//! for.
+//! One pass from the end of the day back to now computes the worth of being ready anywhere at any
+//! time (`values.rs`). A second pass, forwards, follows each aircraft along its best way and counts
+//! the stands and passengers that it asks for.
 
 use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::View;
@@ -16,8 +16,8 @@ use super::seats::Seats;
 use super::values::{HOLD, ValueTable};
 use super::wanted::Wanted;
 
-/// Number of groups of aircraft that are followed side by side, so that one does not wait for the memory that another
-/// looks at.
+/// Number of groups of aircraft that are followed side by side, so that one does not wait for the
+/// memory that another looks at.
 const SIDE_BY_SIDE: usize = 4;
 
 /// Where a group of aircraft that are alike is on its way.
@@ -47,14 +47,16 @@ pub(super) struct Relaxation {
     /// The current slot, and its period.
     first_slot: usize,
     first_period: usize,
-    /// Prices in dollars: of a stand by slot, then vertiport, and of a passenger by period, then pair.
+    /// Prices in dollars: of a stand by slot, then vertiport, and of a passenger by period, then
+    /// pair.
     pub(super) stand_usd: Vec<f64>,
     pub(super) passenger_usd: Vec<f64>,
     /// The number asked for less the number available, in the same order.
     pub(super) stand_excess: Vec<f64>,
     pub(super) passenger_excess: Vec<f64>,
     values: ValueTable,
-    /// The values of the pass that is [kept](Self::keep), and the number of decisions that the fleet takes in it.
+    /// The values of the pass that is [kept](Self::keep), and the number of decisions that the
+    /// fleet takes in it.
     kept_values: ValueTable,
     kept_decisions: u32,
     /// Number of decisions that the fleet takes on its best ways.
@@ -124,7 +126,8 @@ impl Relaxation {
         }
     }
 
-    /// The destinations of decisions from one time to another, by the values that are [kept](Self::keep).
+    /// The destinations of decisions from one time to another, by the values that are
+    /// [kept](Self::keep).
     pub(super) fn ranks(&self, view: View<'_>, times: (Time, Time)) -> Ranks {
         Ranks::of(view, &self.clock, &self.kept_values, times)
     }
@@ -140,8 +143,9 @@ impl Relaxation {
         self.hops.len() * (self.clock.slots - self.first_slot)
     }
 
-    /// Evaluates the Lagrangian dual at the prices: the profit of the fleet after payments, plus the price of all stands
-    /// and the surplus of all passengers, dollars. Also computes the excess.
+    /// Evaluates the Lagrangian dual at the prices: the profit of the fleet after payments, plus
+    /// the price of all stands and the surplus of all passengers, dollars. Also computes the
+    /// excess.
     pub(super) fn evaluate(&mut self) -> f64 {
         self.charge();
         self.values.pay(&self.stand_usd, self.first_slot);
@@ -149,7 +153,8 @@ impl Relaxation {
         self.offer_usd() + self.send_fleet()
     }
 
-    /// Deducts the prices of passengers from flights. Where no flight has asked for any, their price is still zero.
+    /// Deducts the prices of passengers from flights. Where no flight has asked for any, their
+    /// price is still zero.
     pub(super) fn charge(&mut self) {
         let pairs = self.vertiports * self.vertiports;
         let mut period = self.first_period;
@@ -168,8 +173,9 @@ impl Relaxation {
         self.kept_decisions = self.decisions;
     }
 
-    /// Sets the excess of passengers to minus the seats that they ask for, as if no aircraft took any, and that of stands
-    /// to zero. Returns the price of all stands and the surplus of all passengers, dollars.
+    /// Sets the excess of passengers to minus the seats that they ask for, as if no aircraft took
+    /// any, and that of stands to zero. Returns the price of all stands and the surplus of all
+    /// passengers, dollars.
     fn offer_usd(&mut self) -> f64 {
         let (stand, _) = self.begins();
         let mut usd = 0.0;
@@ -187,7 +193,8 @@ impl Relaxation {
         usd
     }
 
-    /// Sends every aircraft along its best way and counts what it asks for. Returns the worth of these ways, dollars.
+    /// Sends every aircraft along its best way and counts what it asks for. Returns the worth of
+    /// these ways, dollars.
     fn send_fleet(&mut self) -> f64 {
         let mut usd = 0.0;
         // No rent has been paid when the first slot begins.
@@ -257,8 +264,8 @@ impl Relaxation {
         self.ask(count, way.place, slot, way.slot);
     }
 
-    /// Records that a number of stands are asked for from one slot until another: so many more from the first on, and
-    /// so many less from the second on.
+    /// Records that a number of stands are asked for from one slot until another: so many more from
+    /// the first on, and so many less from the second on.
     #[inline]
     fn ask(&mut self, count: u32, place: VertiportIx, from: usize, until: usize) {
         let number = f64::from(count);
@@ -270,7 +277,8 @@ impl Relaxation {
         }
     }
 
-    /// Turns the recorded changes into the number of stands asked for in each slot less the number available.
+    /// Turns the recorded changes into the number of stands asked for in each slot less the number
+    /// available.
     fn count_stands(&mut self) {
         let first = self.first_slot * self.vertiports;
         let (mut before, mut rest) = self.stand_excess[first..].split_at_mut(self.vertiports);
@@ -286,12 +294,14 @@ impl Relaxation {
         }
     }
 
-    /// Number of decisions that the fleet takes on its best ways at the prices of the pass that is kept.
+    /// Number of decisions that the fleet takes on its best ways at the prices of the pass that is
+    /// kept.
     pub(super) fn kept_decisions(&self) -> u32 {
         self.kept_decisions
     }
 
-    /// The worth of being ready, and the price of stands, anywhere at any time, at the prices of the pass that is kept.
+    /// The worth of being ready, and the price of stands, anywhere at any time, at the prices of
+    /// the pass that is kept.
     #[inline]
     pub(super) fn kept_values(&self) -> &ValueTable {
         &self.kept_values

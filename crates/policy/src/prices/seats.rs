@@ -1,5 +1,5 @@
-//! The seats that passengers ask for. Flights are whole: passengers of a pair and demand period fill some flights, and
-//! the rest flies on one more that leaves partly empty, if that pays.
+//! The seats that passengers ask for. Flights are whole: passengers of a pair and demand period
+//! fill some flights, and the rest flies on one more that leaves partly empty, if that pays.
 
 /// The seats that the passengers of a pair and demand period ask for.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -13,8 +13,9 @@ pub(super) struct Seats {
 }
 
 impl Seats {
-    /// What passengers who bring `margin_usd` each ask for, on aircraft that all have `a_flight` seats, or if that is
-    /// `None`, on aircraft with several numbers of seats, which are taken to fill any number of seats.
+    /// What passengers who bring `margin_usd` each ask for, on aircraft that all have `a_flight`
+    /// seats, or if that is `None`, on aircraft with several numbers of seats, which are taken to
+    /// fill any number of seats.
     pub(super) fn of(passengers: u32, a_flight: Option<u32>, margin_usd: f64) -> Self {
         let rest = a_flight.map_or(0, |seats| passengers % seats);
         let one_flight = a_flight.filter(|&seats| seats < passengers && rest > 0);
@@ -48,8 +49,8 @@ impl Seats {
 mod tests {
     use super::Seats;
 
-    /// The most that passengers have beyond what flights of `a_flight` seats keep of their margin, and the seats of
-    /// these flights, by trying every number of flights.
+    /// The most that passengers have beyond what flights of `a_flight` seats keep of their margin,
+    /// and the seats of these flights, by trying every number of flights.
     fn best(passengers: u32, a_flight: u32, margin_usd: f64, price_usd: f64) -> (f64, f64) {
         let flights = (0..=passengers / a_flight + 2).map(|flights| {
             let seats = flights * a_flight;

@@ -3,8 +3,9 @@
 use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
-/// Profit of a typical full flight of each type of aircraft, dollars: the mean over all pairs within range, at the
-/// fares and the energy price of the first period. It is one dollar where there is no such pair or flying does not pay.
+/// Profit of a typical full flight of each type of aircraft, dollars: the mean over all pairs
+/// within range, at the fares and the energy price of the first period. It is one dollar where
+/// there is no such pair or flying does not pay.
 pub fn units_usd(view: View<'_>) -> Vec<f64> {
     TypeIx::all(view.aircraft_types().len()).map(|kind| unit_usd(view, kind)).collect()
 }

@@ -1,7 +1,8 @@
 //! The worth of being ready anywhere at any time, at given prices, and the best choice there.
 //!
-//! Worth is computed at the boundaries of slots and taken to be linear in between. It follows from the worth at later
-//! times, so one pass from the end of the day back to now finds it (`backward_pass.rs`).
+//! Worth is computed at the boundaries of slots and taken to be linear in between. It follows from
+//! the worth at later times, so one pass from the end of the day back to now finds it
+//! (`backward_pass.rs`).
 
 use pulp::Arch;
 use vertifleet_core::{TypeIx, VertiportIx};
@@ -20,11 +21,13 @@ pub(super) struct ValueTable {
     clock: Clock,
     vertiports: usize,
     hold: Stay,
-    /// Distance from a vertiport to the next in the tables: its boundaries, and padding to read past the last one.
+    /// Distance from a vertiport to the next in the tables: its boundaries, and padding to read
+    /// past the last one.
     stride: usize,
     /// Price of a stand from now until a boundary.
     paid_usd: Vec<f64>,
-    /// By type: the worth of being ready *less* `paid_usd`, so that the rent of a stay is one subtraction.
+    /// By type: the worth of being ready *less* `paid_usd`, so that the rent of a stay is one
+    /// subtraction.
     worth_less_paid_usd: Vec<f64>,
     /// By type, vertiport, then slot: index of the best destination at its beginning, or [`HOLD`].
     best: Vec<u16>,
@@ -47,7 +50,8 @@ impl ValueTable {
         }
     }
 
-    /// Sums the prices of stands, given by slot and then vertiport, up to each boundary from the first slot on.
+    /// Sums the prices of stands, given by slot and then vertiport, up to each boundary from the
+    /// first slot on.
     pub(super) fn pay(&mut self, stand_usd: &[f64], first_slot: usize) {
         let (stride, slots) = (self.stride, self.clock.slots);
         for paid_usd in self.paid_usd[first_slot..].iter_mut().step_by(stride) {
@@ -86,7 +90,8 @@ impl ValueTable {
         }
     }
 
-    /// Index of the best destination of an aircraft of a type that is ready when a slot begins, or [`HOLD`].
+    /// Index of the best destination of an aircraft of a type that is ready when a slot begins, or
+    /// [`HOLD`].
     #[inline]
     pub(super) fn best(&self, kind: TypeIx, place: VertiportIx, slot: usize) -> u16 {
         self.best[(kind.at() * self.vertiports + place.at()) * self.clock.slots + slot]
@@ -105,8 +110,8 @@ impl ValueTable {
         }
     }
 
-    /// The most that [`WorthsFrom::usd`] says for flights that are decided in a slot and take `block_s`. Between two
-    /// boundaries nothing is worth more than at the better one.
+    /// The most that [`WorthsFrom::usd`] says for flights that are decided in a slot and take
+    /// `block_s`. Between two boundaries nothing is worth more than at the better one.
     pub(super) fn most_usd(&self, kind: TypeIx, to: VertiportIx, slot: usize, block_s: u32) -> f64 {
         let begin_s = self.clock.begin_s(slot);
         let first = self.clock.place(begin_s + block_s).slot;

@@ -1,9 +1,9 @@
 //! The search for good prices, step by step: the volume algorithm.
 //!
-//! F. Barahona and R. Anbil, *The volume algorithm: producing primal solutions with a subgradient method*, Mathematical
-//! Programming 87, 2000. A price rises where more is asked for than is available, and falls elsewhere. All aircraft of
-//! a vertiport ask for the same, so a single pass exaggerates the excess; its running mean over the passes is used
-//! instead.
+//! F. Barahona and R. Anbil, *The volume algorithm: producing primal solutions with a subgradient
+//! method*, Mathematical Programming 87, 2000. A price rises where more is asked for than is
+//! available, and falls elsewhere. All aircraft of a vertiport ask for the same, so a single pass
+//! exaggerates the excess; its running mean over the passes is used instead.
 
 use super::relaxation::Relaxation;
 
@@ -11,7 +11,8 @@ use super::relaxation::Relaxation;
 const MEAN_WEIGHT: f64 = 0.1;
 /// Distance of the aim of the prices below the lowest value so far, as a share of it.
 const AIM: f64 = 0.05;
-/// Number of passes without a lower value after which steps get shorter, and the factor by which they do.
+/// Number of passes without a lower value after which steps get shorter, and the factor by which
+/// they do.
 const STALLED_PASSES: u32 = 20;
 const SHORTER: f64 = 0.7;
 /// The least number of passes, in which prices settle on large days too.
@@ -54,8 +55,8 @@ impl Volume {
         }
     }
 
-    /// Searches from the prices of the relaxation, and leaves it at the best prices found. Returns their value,
-    /// dollars.
+    /// Searches from the prices of the relaxation, and leaves it at the best prices found. Returns
+    /// their value, dollars.
     pub(super) fn search(&mut self, relaxation: &mut Relaxation, effort: Effort) -> f64 {
         let mut lowest_usd = f64::INFINITY;
         let (mut step, mut failures) = (effort.step, 0);
@@ -107,8 +108,8 @@ impl Volume {
         relaxation.charge();
     }
 
-    /// Moves the mean of the excess towards that of this pass. Returns the sum of its squares, without the resources
-    /// that are free and left over.
+    /// Moves the mean of the excess towards that of this pass. Returns the sum of its squares,
+    /// without the resources that are free and left over.
     fn average(&mut self, relaxation: &Relaxation, weight: f64) -> f64 {
         let (stand, _) = relaxation.begins();
         let means = self.stand_mean[stand..].iter_mut();
@@ -128,8 +129,9 @@ impl Volume {
         stands_square + passengers_square
     }
 
-    /// Takes the passengers off the list whose price is zero and the mean of whose excess is minus the seats of their full
-    /// flights. As long as no aircraft asks for them, further passes would not change either.
+    /// Takes the passengers off the list whose price is zero and the mean of whose excess is minus
+    /// the seats of their full flights. As long as no aircraft asks for them, further passes would
+    /// not change either.
     fn forget_what_rests(&self, relaxation: &mut Relaxation) {
         let (seats, price_usd) = (&relaxation.seats, &relaxation.passenger_usd);
         relaxation.wanted.retain(|cell| {
@@ -155,8 +157,8 @@ impl Volume {
     }
 }
 
-/// Moves the mean of a resource's excess towards that of a pass. Returns its square, or zero if the resource is free
-/// and left over.
+/// Moves the mean of a resource's excess towards that of a pass. Returns its square, or zero if the
+/// resource is free and left over.
 #[inline]
 fn average(mean: &mut f64, excess: f64, price_usd: f64, weight: f64) -> f64 {
     *mean += weight * (excess - *mean);

@@ -1,10 +1,11 @@
-//! The passengers that aircraft ask for: the pairs and demand periods whose price, or running mean of the excess, has
-//! moved away from where it rests.
+//! The passengers that aircraft ask for: the pairs and demand periods whose price, or running mean
+//! of the excess, has moved away from where it rests.
 //!
-//! A fleet asks for a small share of all passengers (a tenth of the pairs, on a day of 100 vertiports). As long as
-//! no flight asks for the passengers of a pair, their price is zero, the mean of their excess is minus their number to the
-//! last bit, and a pass changes neither. So a search looks only at the pairs that are listed here, in the order of all
-//! pairs, and every sum over them is the sum over all.
+//! A fleet asks for a small share of all passengers (a tenth of the pairs, on a day of 100
+//! vertiports). As long as no flight asks for the passengers of a pair, their price is zero, the
+//! mean of their excess is minus their number to the last bit, and a pass changes neither. So a
+//! search looks only at the pairs that are listed here, in the order of all pairs, and every sum
+//! over them is the sum over all.
 
 /// A set of positions among all pairs of all demand periods, in ascending order.
 #[derive(Debug, Clone)]
@@ -12,7 +13,8 @@ pub(super) struct Wanted {
     /// A bit for each position.
     is_listed: Vec<u64>,
     listed: Vec<u32>,
-    /// The positions that the latest pass has added, in ascending order once they are [settled](Self::settle).
+    /// The positions that the latest pass has added, in ascending order once they are
+    /// [settled](Self::settle).
     fresh: Vec<u32>,
 }
 

@@ -122,7 +122,8 @@ fn no_flight_counts_on_a_route_in_the_slots_in_which_it_is_known_to_be_closed() 
     simulation.next_decision().expect("the day is young");
     let prices = DayPrices::of(simulation.view(), start);
     let worth = |minute: u32| prices.worth_usd(TypeIx(0), at, start + 60 * minute);
-    // Holds last 15 minutes, so an aircraft that is ready at 0 or at 90 minutes decides again at 1:45 and at 2:00.
+    // Holds last 15 minutes, so an aircraft that is ready at 0 or at 90 minutes decides again at
+    // 1:45 and at 2:00.
     assert_eq!(worth(0), worth(90));
     assert_eq!(worth(90), worth(105));
     assert!(worth(105) <= worth(108), "an aircraft that is ready when routes open flies at once");

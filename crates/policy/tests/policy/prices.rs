@@ -33,8 +33,8 @@ fn all_rents_usd(day: &Scenario, prices: &DayPrices) -> f64 {
     vertiports.map(|vertiport| prices.rent_usd(vertiport, start, end)).sum()
 }
 
-/// A day of one aircraft that holds for 300 s, with every route from its vertiport closed for the first `closed_s`
-/// seconds.
+/// A day of one aircraft that holds for 300 s, with every route from its vertiport closed for the
+/// first `closed_s` seconds.
 fn shut_in(seed: u64, closed_s: u32) -> Arc<Scenario> {
     let mut day = Scenario::clone(&changed(seed, 1, 1)).into_day();
     let (start, from) = (day.operations.start, day.aircraft[0].at);
@@ -53,7 +53,8 @@ fn no_policy_counts_on_a_route_that_is_closed() {
     let decision = simulation.next_decision().expect("the day is young");
     let prices = DayPrices::of(simulation.view(), decision.time);
     let worth = |place, after_s| prices.worth_usd(TypeIx(0), place, decision.time + after_s);
-    // All flights away are assumed impossible in the first two hours, so exactly these hours are lost.
+    // All flights away are assumed impossible in the first two hours, so exactly these hours are
+    // lost.
     assert_eq!(worth(decision.at, 0), worth(decision.at, 7_200 - 300));
     assert!(worth(decision.at, 0) > 500.0, "routes open again some time");
     let elsewhere = VertiportIx((decision.at.0 + 1) % 8);

@@ -1,6 +1,7 @@
-//! Without tokens the service trusts every program on its machine, and browsers there show pages of the whole world. Such a page
-//! can send requests to this machine, and by a name of its own that leads here it could even read the answers. So requests
-//! must name this machine, and those of a page must come from a page of this machine.
+//! Without tokens the service trusts every program on its machine, and browsers there show pages of
+//! the whole world. Such a page can send requests to this machine, and by a name of its own that
+//! leads here it could even read the answers. So requests must name this machine, and those of a
+//! page must come from a page of this machine.
 
 use std::net::IpAddr;
 

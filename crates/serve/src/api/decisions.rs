@@ -147,7 +147,8 @@ async fn by_hand(
     to: String,
 ) -> Result<TakenDecision, Error> {
     let policy = policy.unwrap_or_else(|| day.stored().policy.clone());
-    // For the record only, so it must not hold a person up, and whatever goes wrong shows when the event is taken.
+    // For the record only, so it must not hold a person up, and whatever goes wrong shows when the
+    // event is taken.
     let deadline = deadline_ms.map_or(OVERRULED_TIMEOUT, |ms| Duration::from_millis(ms.into()));
     let overruled = ask(service, day, (&writer.actor, &aircraft), policy, time);
     let overruled = tokio::time::timeout(deadline, overruled).await;

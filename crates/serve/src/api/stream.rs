@@ -154,7 +154,8 @@ impl Reader {
                 if let Some(fresh) = fresh {
                     self.take(fresh, &mut text)?;
                 }
-                // What has come meanwhile goes out together: where many read, a write for each event would cost most.
+                // What has come meanwhile goes out together: where many read, a write for each
+                // event would cost most.
                 while !self.position.is_behind()
                     && let Ok(event) = self.fresh.try_recv()
                 {

@@ -25,8 +25,8 @@ impl Addresses {
         Self { most, open: Arc::default() }
     }
 
-    /// A place for a connection; `None` if the address has as many as it may. This machine's own clients have no limit: a proxy
-    /// may be among them.
+    /// A place for a connection; `None` if the address has as many as it may. This machine's own
+    /// clients have no limit: a proxy may be among them.
     pub(super) fn take(&self, address: IpAddr) -> Option<Place> {
         let address = network_of(address);
         let mut open = self.open();
@@ -43,7 +43,8 @@ impl Addresses {
     }
 }
 
-/// The address, or the first half of one of version 6, because a client usually has the whole second half.
+/// The address, or the first half of one of version 6, because a client usually has the whole
+/// second half.
 fn network_of(address: IpAddr) -> IpAddr {
     match address.to_canonical() {
         IpAddr::V6(address) if !address.is_loopback() => {

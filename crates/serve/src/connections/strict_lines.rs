@@ -1,5 +1,6 @@
-//! Lines of requests end with CR LF. The parser of HTTP also takes a bare LF (RFC 9112, 2.2, permits it), which a proxy may read
-//! differently, so that one request hides in another. Here a bare LF in a head becomes a NUL, which the parser refuses with 400.
+//! Lines of requests end with CR LF. The parser of HTTP also takes a bare LF (RFC 9112, 2.2,
+//! permits it), which a proxy may read differently, so that one request hides in another. Here a
+//! bare LF in a head becomes a NUL, which the parser refuses with 400.
 
 use std::io;
 use std::pin::Pin;
@@ -75,8 +76,8 @@ impl Head {
         None
     }
 
-    /// Takes the length of the body from a header. Returns false if it cannot be found, so that the parser must not find another
-    /// one.
+    /// Takes the length of the body from a header. Returns false if it cannot be found, so that the
+    /// parser must not find another one.
     fn note_header(&mut self) -> bool {
         let Some(colon) = self.line.iter().position(|byte| *byte == b':') else { return true };
         let (name, value) = (&self.line[..colon], self.line[colon + 1..].trim_ascii());

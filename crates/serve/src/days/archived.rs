@@ -1,4 +1,5 @@
-//! Days that are closed to writes, opened again, and removed, each only where the writer expects it to be.
+//! Days that are closed to writes, opened again, and removed, each only where the writer expects it
+//! to be.
 
 use std::sync::Arc;
 
@@ -11,8 +12,8 @@ impl Days {
     /// Closes a day to writes. It may be closed already.
     ///
     /// # Errors
-    /// Returns [`Error::NotFound`], [`Error::Moved`] if the day is at another event than the writer expects, and
-    /// [`Error::Store`].
+    /// Returns [`Error::NotFound`], [`Error::Moved`] if the day is at another event than the writer
+    /// expects, and [`Error::Store`].
     pub(crate) async fn archive(&self, id: &str, writer: &Writer) -> Result<(), Error> {
         self.set_archived(id, true, writer).await
     }
@@ -43,8 +44,8 @@ impl Days {
         Ok(())
     }
 
-    /// A day that is where the writer expects it to be, when all its events so far are stored. The store has the last word on
-    /// where it is, since events may come until then.
+    /// A day that is where the writer expects it to be, when all its events so far are stored. The
+    /// store has the last word on where it is, since events may come until then.
     async fn settled(&self, id: &str, writer: &Writer) -> Result<Arc<DayCell>, Error> {
         for _ in 0..TRIES {
             let day = self.get(id).await?;
@@ -62,7 +63,8 @@ impl Days {
     pub(super) fn drop_from_memory(&self, day: &DayCell) {
         day.fail();
         let mut cells = self.cells();
-        // A day that has been read again since stays. One that is being read may have been read too early.
+        // A day that has been read again since stays. One that is being read may have been read too
+        // early.
         let is_dropped = |cell: &Arc<OnceCell<Arc<DayCell>>>| {
             cell.get().is_none_or(|kept| std::ptr::eq(&raw const **kept, day))
         };

@@ -20,7 +20,8 @@ impl Days {
     /// A day as it was after an event.
     ///
     /// # Errors
-    /// Returns [`Error::NoSuchEvent`] if the day has no such event, and the errors of [`get`](Self::get).
+    /// Returns [`Error::NoSuchEvent`] if the day has no such event, and the errors of
+    /// [`get`](Self::get).
     pub(crate) async fn at(
         &self,
         actor: &str,
@@ -72,10 +73,12 @@ async fn read(store: &Store, id: &str) -> Result<Arc<DayCell>, Error> {
     Ok(Arc::new(DayCell::new(stored, state)?))
 }
 
-/// Replays the events of a day that follow those of a state, up to a number or to the last one that is stored.
+/// Replays the events of a day that follow those of a state, up to a number or to the last one that
+/// is stored.
 ///
 /// # Errors
-/// Returns the errors of [`DispatchDay::replay`]; the events before the one that is wrong have been replayed then.
+/// Returns the errors of [`DispatchDay::replay`]; the events before the one that is wrong have been
+/// replayed then.
 pub(crate) async fn replay(
     store: &Store,
     day: &str,

@@ -1,5 +1,5 @@
-//! Days that other services write to as well, in one database: what they have added is taken in when a day is used, and while its
-//! stream is read.
+//! Days that other services write to as well, in one database: what they have added is taken in
+//! when a day is used, and while its stream is read.
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -16,9 +16,9 @@ use crate::store::{DayNotice, PAGE};
 const POLL_INTERVAL: Duration = Duration::from_secs(2);
 
 impl Days {
-    /// Takes in what other services have added to a day. Returns false if memory does not go on as the store does: an event of
-    /// ours waits to be stored under a number that has been taken, or the day was archived, opened again, deleted or put back
-    /// from a copy.
+    /// Takes in what other services have added to a day. Returns false if memory does not go on as
+    /// the store does: an event of ours waits to be stored under a number that has been taken, or
+    /// the day was archived, opened again, deleted or put back from a copy.
     pub(super) async fn catch_up(&self, day: &DayCell) -> Result<bool, Error> {
         let stored = *day.durable.borrow();
         let Some(head) = self.store.head(day.id()).await? else { return Ok(false) };
@@ -50,8 +50,8 @@ impl Days {
         }
     }
 
-    /// Follows what other services do to the days whose streams are read, until it is dropped. One connection hears their
-    /// notices for all readers.
+    /// Follows what other services do to the days whose streams are read, until it is dropped. One
+    /// connection hears their notices for all readers.
     pub(crate) async fn follow_others(&self) {
         if !self.store.is_shared() {
             return;
@@ -108,7 +108,8 @@ impl Days {
         Ok(())
     }
 
-    /// Takes in what other services have done to a day. A damaged one is dropped, and does not keep others from being followed.
+    /// Takes in what other services have done to a day. A damaged one is dropped, and does not keep
+    /// others from being followed.
     async fn refresh(&self, day: &DayCell) -> Result<(), Error> {
         match self.catch_up(day).await {
             Ok(true) => {}

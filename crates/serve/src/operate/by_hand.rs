@@ -1,7 +1,8 @@
-//! A day on which people decide: the operator tells what happens, and time stands still until all who wait have a decision.
+//! A day on which people decide: the operator tells what happens, and time stands still until all
+//! who wait have a decision.
 //!
-//! People decide in an order of their own, take decisions back as long as the aircraft has not departed, and report what they
-//! know. The simulated day follows them.
+//! People decide in an order of their own, take decisions back as long as the aircraft has not
+//! departed, and report what they know. The simulated day follows them.
 
 use std::collections::HashMap;
 use std::thread;
@@ -53,7 +54,8 @@ impl<'a> People<'a> {
         Self { operation, day, client, stop, stood: HashMap::new() }
     }
 
-    /// Plays the day until its last decision. `watch` is called with the time of each decision and how long people took.
+    /// Plays the day until its last decision. `watch` is called with the time of each decision and
+    /// how long people took.
     ///
     /// # Errors
     /// Returns [`Error::NoAnswer`] if the service does not answer.
@@ -108,7 +110,8 @@ impl<'a> People<'a> {
         speed.is_none_or(|speed| begun.elapsed().as_secs_f64() >= f64::from(day_s) / speed)
     }
 
-    /// Has the day follow what people have done since the last look. Returns whether they have decided something.
+    /// Has the day follow what people have done since the last look. Returns whether they have
+    /// decided something.
     fn follow(&mut self, reporter: &mut Reporter, now: Time) -> Result<bool, Error> {
         let heard = self.client.heard(self.day)?;
         let (mut decides, mut is_otherwise) = (false, false);
@@ -138,7 +141,8 @@ impl<'a> People<'a> {
         Ok(decides)
     }
 
-    /// Learns from the service who is ready when, since people have told it what the simulated day does not know.
+    /// Learns from the service who is ready when, since people have told it what the simulated day
+    /// does not know.
     fn ask_who_is_ready(&mut self, reporter: &mut Reporter, now: Time) -> Result<(), Error> {
         let fleet: Fleet = self.client.get(&format!("/v1/days/{}/state", self.day))?;
         for known in fleet.aircraft.iter().filter(|known| known.phase == "standing") {

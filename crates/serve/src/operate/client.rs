@@ -106,7 +106,8 @@ pub(super) struct Client {
     run: String,
     sent: u64,
     pub(super) sent_again: u64,
-    /// The number of the latest event that was heard of, and the later ones that are the operator's own.
+    /// The number of the latest event that was heard of, and the later ones that are the operator's
+    /// own.
     heard: u64,
     own: BTreeSet<u64>,
     /// The value of the header that carries the token.
@@ -123,7 +124,8 @@ impl Client {
         let config = ureq::Agent::config_builder()
             .tls_config(tls.build())
             .http_status_as_error(false)
-            // Not for the whole request: that would take a thread for looking the address up each time.
+            // Not for the whole request: that would take a thread for looking the address up each
+            // time.
             .timeout_connect(Some(REQUEST_TIMEOUT))
             .timeout_send_body(Some(REQUEST_TIMEOUT))
             .timeout_recv_response(Some(Duration::from_mins(1)))
@@ -156,8 +158,8 @@ impl Client {
         Ok(())
     }
 
-    /// Sends everything that becomes known up to a time, and that it is that time now, unless others have done something that
-    /// has not been heard of. Returns whether it was sent.
+    /// Sends everything that becomes known up to a time, and that it is that time now, unless
+    /// others have done something that has not been heard of. Returns whether it was sent.
     pub(super) fn report_as_heard(
         &mut self,
         day: &str,
@@ -250,7 +252,8 @@ impl Client {
         self.read(path, status, &answer)
     }
 
-    /// Sends a request again as long as the service is starting, stopping or busy with this very request.
+    /// Sends a request again as long as the service is starting, stopping or busy with this very
+    /// request.
     fn answer(
         &mut self,
         ask: impl Fn(&ureq::Agent, Option<&str>) -> Result<Response<Body>, ureq::Error>,

@@ -1,4 +1,5 @@
-//! Events are stored: those of one append all or none, several appends together, and never on a day that is archived.
+//! Events are stored: those of one append all or none, several appends together, and never on a day
+//! that is archived.
 
 use sqlx::{AssertSqlSafe, query, query_scalar};
 
@@ -16,8 +17,8 @@ pub(crate) struct NewEvent<'a> {
     pub(crate) event: &'a StoredEvent,
 }
 
-/// A random number that identifies one append, so that a service recognises its own events among equal events of other
-/// services.
+/// A random number that identifies one append, so that a service recognises its own events among
+/// equal events of other services.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct AppendId(i64);
 
@@ -38,8 +39,8 @@ impl Store {
     /// Adds events of several days, all or none.
     ///
     /// # Errors
-    /// Returns the errors of [`move_heads`](Self::move_heads), [`Error::Store`], and [`Error::StoreHangs`], after which the
-    /// events may still be stored.
+    /// Returns the errors of [`move_heads`](Self::move_heads), [`Error::Store`], and
+    /// [`Error::StoreHangs`], after which the events may still be stored.
     pub(crate) async fn append(
         &self,
         events: &[NewEvent<'_>],
@@ -99,8 +100,8 @@ impl Store {
         Ok(())
     }
 
-    /// Whether the event with a number was stored by this append. An equal event may be there that another service stored,
-    /// so contents are not compared.
+    /// Whether the event with a number was stored by this append. An equal event may be there that
+    /// another service stored, so contents are not compared.
     pub(crate) async fn is_stored_by(
         &self,
         append: AppendId,
@@ -114,8 +115,8 @@ impl Store {
     }
 }
 
-/// The places of the values of some rows, `(?, ?), (?, ?)`; `PostgreSQL` has numbers in them. `SQLite` would compare each number
-/// with all others.
+/// The places of the values of some rows, `(?, ?), (?, ?)`; `PostgreSQL` has numbers in them.
+/// `SQLite` would compare each number with all others.
 pub(super) fn rows(store: &Store, rows: usize, columns: usize) -> String {
     let place = |at: usize| if store.is_shared() { format!("${at}") } else { "?".to_owned() };
     let row = |row: usize| {

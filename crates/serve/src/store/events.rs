@@ -11,7 +11,8 @@ use crate::error::Error;
 pub(crate) const PAGE: u32 = 10_000;
 /// Events that are read at once to be replayed.
 const REPLAYED: u32 = 1_000;
-/// About so many bytes of events are read at once, so that neither long events nor many readers fill the memory.
+/// About so many bytes of events are read at once, so that neither long events nor many readers
+/// fill the memory.
 const PAGE_BYTES: usize = 4 << 20;
 
 /// Events of a day that follow each other.
@@ -61,7 +62,8 @@ impl Store {
         self.in_time(self.read_to_replay(day, after, limit)).await
     }
 
-    /// The database returns the events as one row, which takes a third of the time of as many rows. A long event comes alone.
+    /// The database returns the events as one row, which takes a third of the time of as many rows.
+    /// A long event comes alone.
     async fn read_to_replay(
         &self,
         day: &str,

@@ -1,5 +1,5 @@
-//! The head in a day's row: the number of its last event and the checksum of its log. A log that lacks its last events does not fit
-//! its head, and other services compare heads to detect changes.
+//! The head in a day's row: the number of its last event and the checksum of its log. A log that
+//! lacks its last events does not fit its head, and other services compare heads to detect changes.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -42,7 +42,8 @@ impl Store {
         row.map(|row| head(&row).map(|(_, head)| head)).transpose()
     }
 
-    /// The heads of days by their ids. Days that are not there, or whose rows are damaged, are left out.
+    /// The heads of days by their ids. Days that are not there, or whose rows are damaged, are left
+    /// out.
     pub(crate) async fn heads(&self, days: &[String]) -> Result<HashMap<String, Head>, Error> {
         let mut heads = HashMap::new();
         for days in days.chunks(MOST_AT_ONCE) {
@@ -66,7 +67,8 @@ impl Store {
         Ok(chain.and_then(|chain| u32::try_from(chain).ok()))
     }
 
-    /// The days of which there are events but no row, and those that were made and are gone although they were not deleted.
+    /// The days of which there are events but no row, and those that were made and are gone
+    /// although they were not deleted.
     pub(crate) async fn lost_days(&self) -> Result<Vec<String>, Error> {
         let select = "SELECT DISTINCT day FROM events WHERE day NOT IN (SELECT id FROM days)
              UNION SELECT target FROM audit WHERE action = 'day made'
@@ -75,12 +77,13 @@ impl Store {
         Ok(query_scalar(select).fetch_all(self.pool()).await?)
     }
 
-    /// Moves the heads of days to the last of the events that a transaction adds, and locks the days until the transaction
-    /// ends. Returns the days with the numbers of their last events.
+    /// Moves the heads of days to the last of the events that a transaction adds, and locks the
+    /// days until the transaction ends. Returns the days with the numbers of their last events.
     ///
     /// # Errors
-    /// Returns [`Error::NotFound`] or [`Error::Archived`] if a day takes no events, and [`Error::Conflict`] if an event is not
-    /// the next one of its day, because another service was quicker.
+    /// Returns [`Error::NotFound`] or [`Error::Archived`] if a day takes no events, and
+    /// [`Error::Conflict`] if an event is not the next one of its day, because another service was
+    /// quicker.
     pub(super) async fn move_heads<'a>(
         &self,
         transaction: &mut Transaction<'_, Any>,
@@ -93,7 +96,8 @@ impl Store {
             (added.last, added.chain) = (seq, chain);
         }
         if self.is_shared() && days.len() > 1 {
-            // Services that lock several days do so in one order, or they could wait for each other.
+            // Services that lock several days do so in one order, or they could wait for each
+            // other.
             let places = rows(self, 1, days.len());
             let lock = format!("SELECT id FROM days WHERE id IN {places} ORDER BY id FOR UPDATE");
             let lock = days.keys().fold(query(AssertSqlSafe(lock)), |query, day| query.bind(*day));

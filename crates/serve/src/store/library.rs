@@ -1,8 +1,10 @@
-//! Networks and weights of policies that were uploaded, in the store, each with a description beside it.
+//! Networks and weights of policies that were uploaded, in the store, each with a description
+//! beside it.
 //!
-//! A description is what a program answered when it read the network or the weights, as JSON. It counts for that version of
-//! the program alone, and as long as what it describes is not uploaded anew, so that versions that share a database do not
-//! mislead each other. Without one, the network or the weights are read again.
+//! A description is what a program answered when it read the network or the weights, as JSON. It
+//! counts for that version of the program alone, and as long as what it describes is not uploaded
+//! anew, so that versions that share a database do not mislead each other. Without one, the network
+//! or the weights are read again.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -186,8 +188,8 @@ impl Store {
         Ok(query_scalar(select).bind(name).fetch_optional(self.pool()).await?)
     }
 
-    /// Removes the weights of a policy. Its name goes on to mean them, since logs of days name it. Returns whether there was
-    /// one.
+    /// Removes the weights of a policy. Its name goes on to mean them, since logs of days name it.
+    /// Returns whether there was one.
     ///
     /// # Errors
     /// Returns [`Error::PolicyInUse`] if it decides on days that are not archived.

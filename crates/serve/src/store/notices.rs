@@ -1,5 +1,5 @@
-//! Notifications between services that share a `PostgreSQL` database: which days have changed (LISTEN and NOTIFY). Notices can be
-//! missed, so they only make things quicker.
+//! Notifications between services that share a `PostgreSQL` database: which days have changed
+//! (LISTEN and NOTIFY). Notices can be missed, so they only make things quicker.
 
 use std::str::FromStr as _;
 use std::time::Duration;
@@ -47,7 +47,8 @@ impl DayNotice {
 pub(crate) struct Listener(PgListener);
 
 impl Listener {
-    /// The next notice; `None` if notices may have been missed, because the connection was lost or none has come for `patience`.
+    /// The next notice; `None` if notices may have been missed, because the connection was lost or
+    /// none has come for `patience`.
     ///
     /// # Errors
     /// Returns [`Error::Store`] if the database cannot be reached.

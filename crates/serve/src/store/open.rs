@@ -39,7 +39,8 @@ const TABLES: [&str; 10] = [
         name TEXT PRIMARY KEY, toml TEXT NOT NULL, created_ms BIGINT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS policies (
         name TEXT PRIMARY KEY, weights BYTEA NOT NULL, sha256 TEXT NOT NULL, created_ms BIGINT NOT NULL)",
-    // What programs say of networks and policies, so that listing them reads none of them. Anything in it may be missing.
+    // What programs say of networks and policies, so that listing them reads none of them. Anything
+    // in it may be missing.
     "CREATE TABLE IF NOT EXISTS descriptions (
         kind TEXT NOT NULL, name TEXT NOT NULL, program TEXT NOT NULL, created_ms BIGINT NOT NULL,
         description TEXT NOT NULL, PRIMARY KEY (kind, name, program))",
@@ -75,14 +76,14 @@ const ADDED_AFTER: [(&str, &str); 10] = [
     ),
 ];
 
-/// The settings of each connection to `SQLite`: a log that readers do not wait for, written to the disk before a commit
-/// is answered.
+/// The settings of each connection to `SQLite`: a log that readers do not wait for, written to the
+/// disk before a commit is answered.
 const SQLITE: &str =
     "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA busy_timeout = 5000;
     PRAGMA foreign_keys = ON";
 
-/// A first connection, which says what is wrong; a pool would try again and again, and only say that it took too long. A
-/// server may be about to start, so it has a while.
+/// A first connection, which says what is wrong; a pool would try again and again, and only say
+/// that it took too long. A server may be about to start, so it has a while.
 async fn connect(url: &str, is_shared: bool) -> Result<AnyConnection, sqlx::Error> {
     let begun = Instant::now();
     loop {
@@ -93,8 +94,8 @@ async fn connect(url: &str, is_shared: bool) -> Result<AnyConnection, sqlx::Erro
     }
 }
 
-/// Begins a transaction, and makes the tables in it if there are none. Services that begin at the same time wait for each
-/// other.
+/// Begins a transaction, and makes the tables in it if there are none. Services that begin at the
+/// same time wait for each other.
 async fn make_tables(
     database: &mut AnyConnection,
     is_shared: bool,
@@ -146,8 +147,8 @@ impl Store {
     /// Opens a store, and makes its tables if there are none.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] if the database cannot be reached, [`Error::BadDatabase`] if it is none of `PostgreSQL`, and
-    /// [`Error::BadData`] if a newer program wrote it.
+    /// Returns [`Error::Store`] if the database cannot be reached, [`Error::BadDatabase`] if it is
+    /// none of `PostgreSQL`, and [`Error::BadData`] if a newer program wrote it.
     pub(crate) async fn open(location: &Location) -> Result<Self, Error> {
         if let Location::Postgres(url) = location
             && !["postgres://", "postgresql://"].iter().any(|scheme| url.starts_with(scheme))
@@ -155,8 +156,9 @@ impl Store {
             return Err(Error::BadDatabase);
         }
         install_default_drivers();
-        // What fails in a transaction may leave a connection in an unusable state: when a disk is full, SQLite ends
-        // the transaction by itself, and all that came after would be part of one that is never committed.
+        // What fails in a transaction may leave a connection in an unusable state: when a disk is
+        // full, SQLite ends the transaction by itself, and all that came after would be part of one
+        // that is never committed.
         let mut options = AnyPoolOptions::new()
             .max_connections(8)
             // Longer than a question may take, which then ends first.

@@ -1,5 +1,5 @@
-//! The server of a database that other processes may use too. It may hang and keep its connections open, which nothing else
-//! notices.
+//! The server of a database that other processes may use too. It may hang and keep its connections
+//! open, which nothing else notices.
 
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,7 +10,8 @@ use crate::error::Error;
 
 /// A server that does not answer for so long hangs.
 pub(super) const TIMEOUT: Duration = Duration::from_secs(5);
-/// For so long after that it is asked nothing, so that a request with several questions waits for one of them only.
+/// For so long after that it is asked nothing, so that a request with several questions waits for
+/// one of them only.
 const PAUSE: Duration = Duration::from_secs(1);
 
 #[derive(Clone)]
@@ -50,7 +51,8 @@ impl Store {
     /// The outcome of a question to the database.
     ///
     /// # Errors
-    /// Returns [`Error::StoreHangs`] if a server has not answered for [`TIMEOUT`]. It may still do what it was asked for.
+    /// Returns [`Error::StoreHangs`] if a server has not answered for [`TIMEOUT`]. It may still do
+    /// what it was asked for.
     pub(super) async fn in_time<T, E>(
         &self,
         outcome: impl Future<Output = Result<T, E>>,

@@ -13,7 +13,8 @@ use crate::error::Error;
 pub struct AuditRecord {
     /// When, milliseconds of the Unix clock.
     pub at_ms: i64,
-    /// The name of the token that it was done with; empty without tokens, and for what was done at the machine.
+    /// The name of the token that it was done with; empty without tokens, and for what was done at
+    /// the machine.
     pub actor: String,
     /// What was done, for example `day deleted`.
     pub action: String,

@@ -1,4 +1,5 @@
-//! What a study is asked for, and the checks before it waits for its turn, so that errors are reported at once.
+//! What a study is asked for, and the checks before it waits for its turn, so that errors are
+//! reported at once.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;

@@ -1,4 +1,5 @@
-//! What came out of a study, as it is answered: numbers of `vertifleet compare --json`, and those of each day.
+//! What came out of a study, as it is answered: numbers of `vertifleet compare --json`, and those
+//! of each day.
 
 use serde::Serialize;
 use utoipa::ToSchema;

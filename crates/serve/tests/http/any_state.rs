@@ -1,4 +1,5 @@
-//! Policies decide on whatever state reality has brought about, such as vertiports with more aircraft than stands.
+//! Policies decide on whatever state reality has brought about, such as vertiports with more
+//! aircraft than stands.
 
 use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher};
 use std::sync::Arc;

@@ -19,7 +19,8 @@ use crate::running::{Running, settings_for};
 const TRACE: &str = "0af7651916cd43dd8448eb211c80319c";
 const CALLER: &str = "b7ad6b7169203331";
 
-/// A collector, by its address and the batches that it gets: the first line of each request and its body.
+/// A collector, by its address and the batches that it gets: the first line of each request and its
+/// body.
 fn collector() -> (String, Receiver<(String, Vec<u8>)>) {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
     let address = format!("http://{}", listener.local_addr().expect("an address"));
@@ -30,7 +31,8 @@ fn collector() -> (String, Receiver<(String, Vec<u8>)>) {
             std::thread::spawn(move || {
                 let mut socket = BufReader::new(socket.expect("a connection"));
                 while let Some(batch) = batch(&mut socket) {
-                    // First of all it is kept: the service may end as soon as it is answered, and the test looks then.
+                    // First of all it is kept: the service may end as soon as it is answered, and
+                    // the test looks then.
                     if taken.send(batch).is_err() {
                         return;
                     }
@@ -160,7 +162,8 @@ fn a_collector_that_has_gone_holds_up_no_request() {
     for address in [silent_address, gone_address] {
         let (_folder, service) = observed(format!("http://{address}"));
         let begun = Instant::now();
-        // More than the queue of spans takes. If each waited for the collector, they would take hours.
+        // More than the queue of spans takes. If each waited for the collector, they would take
+        // hours.
         for _ in 0..3_000 {
             assert_eq!(service.get("/healthz").status, 200);
         }

@@ -1,4 +1,5 @@
-//! Days that are not drawn from seeds: with networks, forecasts, places and dates of one's own, and policies too.
+//! Days that are not drawn from seeds: with networks, forecasts, places and dates of one's own, and
+//! policies too.
 
 use serde_json::{Value, json};
 use vertifleet_core::Network;

@@ -1,4 +1,5 @@
-//! Requests at the edge of what the description of the API allows: the service draws the line where the description does.
+//! Requests at the edge of what the description of the API allows: the service draws the line where
+//! the description does.
 
 use serde_json::{Value, json};
 

@@ -1,4 +1,5 @@
-//! Logs that are not what they were: events and days that are missing, and days that were put back from a copy.
+//! Logs that are not what they were: events and days that are missing, and days that were put back
+//! from a copy.
 
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;

@@ -130,7 +130,8 @@ fn people_decide_in_an_order_of_their_own_and_change_their_minds() {
     assert_eq!(state["notices"], json!([]), "every flight departed and landed as it should");
 }
 
-/// Decides for all who wait, the last first. Now and then it takes a decision back and lets the aircraft hold.
+/// Decides for all who wait, the last first. Now and then it takes a decision back and lets the
+/// aircraft hold.
 fn decide_backwards(service: &Running, look: u32) {
     let days = service.get("/v1/days").json;
     let Some(id) = days["days"][0]["id"].as_str() else { return };

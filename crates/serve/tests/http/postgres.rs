@@ -78,7 +78,8 @@ fn two_services_share_a_database() {
 const BOOKED: &[u8] =
     br#"{"type": "booked", "period": "07:00:00", "from": "V1", "to": "V2", "passengers": 1}"#;
 
-/// Sends an event that equals many others. Returns its number; `None` if another service was quicker.
+/// Sends an event that equals many others. Returns its number; `None` if another service was
+/// quicker.
 fn book(service: &Running, path: &str, key: Option<&str>) -> Option<u64> {
     let headers: Vec<_> = key.map(|key| ("idempotency-key", key)).into_iter().collect();
     let answer = service.send("POST", &format!("{path}/events"), &headers, BOOKED);
@@ -227,8 +228,9 @@ fn services_that_start_together_make_the_tables_once() {
     }
 }
 
-/// Has four clients write to a day of two services, each event once it has been told that the one before is stored, while
-/// something happens to the database. Checks that every acknowledged event is stored once and in order.
+/// Has four clients write to a day of two services, each event once it has been told that the one
+/// before is stored, while something happens to the database. Checks that every acknowledged event
+/// is stored once and in order.
 fn check_writes(services: &[Running; 2], during: impl FnOnce(&str)) {
     let path = services[0].new_day("greedy");
     let stop = AtomicBool::new(false);

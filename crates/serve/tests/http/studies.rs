@@ -22,7 +22,8 @@ fn made(service: &Running, body: &Value) -> String {
     format!("/v1/studies/{}", made.json["id"].as_str().expect("an id"))
 }
 
-/// Sees that the policy which comes with a page lets its own style sheet and script in, and nothing that is not named.
+/// Sees that the policy which comes with a page lets its own style sheet and script in, and nothing
+/// that is not named.
 fn assert_runs_under_its_policy(service: &Running, page: &str) {
     let mut answer = ureq::get(format!("{}{page}", service.url)).call().expect("the page");
     let policy = answer.headers()["content-security-policy"].to_str().expect("text").to_owned();

@@ -23,8 +23,8 @@ pub(super) fn check(event: &Event<'_>, expected: &Expected, findings: &mut Findi
     }
 }
 
-/// Whether two amounts differ by no more than a millionth, so that a schedule may state amounts rounded to six digits.
-/// NaN agrees with nothing.
+/// Whether two amounts differ by no more than a millionth, so that a schedule may state amounts
+/// rounded to six digits. NaN agrees with nothing.
 fn agree(stated: f64, due: f64) -> bool {
     (stated - due).abs() <= (1e-6 * due).max(1e-9)
 }

@@ -1,4 +1,5 @@
-//! The schedule's rows in the order in which they happen, with the aircraft and vertiports that they name.
+//! The schedule's rows in the order in which they happen, with the aircraft and vertiports that
+//! they name.
 
 use vertifleet_core::{Aircraft, AircraftType, Scenario, Time, Vertiport, VertiportIx};
 
@@ -29,8 +30,8 @@ impl Event<'_> {
     }
 }
 
-/// The rows whose aircraft and vertiports the scenario has, by time and aircraft. A trace in another order is judged in
-/// this one, so that only its order is found wrong.
+/// The rows whose aircraft and vertiports the scenario has, by time and aircraft. A trace in
+/// another order is judged in this one, so that only its order is found wrong.
 pub(super) fn in_order<'a>(
     scenario: &'a Scenario,
     trace: &'a Trace,

@@ -1,11 +1,12 @@
-//! The times, energy, revenue and costs of one flight as the rules determine them (Eq. 2-4, 7, 9, 13-15).
+//! The times, energy, revenue and costs of one flight as the rules determine them (Eq. 2-4, 7, 9,
+//! 13-15).
 
 use vertifleet_core::Scenario;
 
 use super::event::{Event, period_of};
 
-/// Two ways to compute the same `f64` may differ by this share of it: far more than a handful of roundings, and far
-/// less than the precision of any input.
+/// Two ways to compute the same `f64` may differ by this share of it: far more than a handful of
+/// roundings, and far less than the precision of any input.
 const ROUNDING: f64 = 1e-12;
 
 /// One flight as the rules determine it. Times are seconds since midnight.
@@ -25,7 +26,8 @@ pub(super) struct Expected {
 }
 
 impl Expected {
-    /// Determines the flight of `event` from the time of its decision and the passengers on board that its row states.
+    /// Determines the flight of `event` from the time of its decision and the passengers on board
+    /// that its row states.
     pub(super) fn of(scenario: &Scenario, event: &Event<'_>) -> Self {
         let (operations, kind, row) = (&scenario.operations, event.kind, event.row);
         let distance_mi = scenario.distance_mi[event.pair()];
@@ -39,7 +41,8 @@ impl Expected {
         let cruise_s = nearest(3600.0 * distance_mi / kind.speed_mph, stated_cruise_s);
         let arrival_s = on_the_way_s + cruise_s;
 
-        // A delayed flight waits on the ground, where the charger makes up for what the battery loses.
+        // A delayed flight waits on the ground, where the charger makes up for what the battery
+        // loses.
         let flight_h = (arrival_s - delay_s - time_s) as f64 / 3600.0;
         let lost_kwh = kind.battery_kwh * kind.self_discharge_per_h * flight_h;
         let energy_kwh = kind.energy_kwh_per_mi * distance_mi + lost_kwh;
@@ -64,13 +67,15 @@ impl Expected {
         }
     }
 
-    /// Whether a battery of this capacity lasts for the flight. Both energies are rounded to whole milliwatt-hours.
+    /// Whether a battery of this capacity lasts for the flight. Both energies are rounded to whole
+    /// milliwatt-hours.
     pub(super) fn fits(&self, battery_kwh: f64) -> bool {
         (self.energy_kwh * 1e6).round() <= (battery_kwh * 1e6).round()
     }
 }
 
-/// Seconds by which the flight takes off late: the delay of its vertiport in the slot of its decision.
+/// Seconds by which the flight takes off late: the delay of its vertiport in the slot of its
+/// decision.
 fn delay_s(scenario: &Scenario, event: &Event<'_>) -> u64 {
     let Some(delays) = &scenario.disturbances.takeoff_delays else { return 0 };
     let into_day_s = event.row.time.seconds().saturating_sub(scenario.operations.start.seconds());
@@ -88,8 +93,8 @@ fn fit_again_s(scenario: &Scenario, event: &Event<'_>, arrival_s: u64) -> u64 {
     own.map(|outage| outage.end.seconds().into()).max().unwrap_or(0)
 }
 
-/// A duration rounded to the nearest second, half a second up. Where the duration is half a second and `f64` cannot
-/// tell from which side, `stated` is taken if it is one of the two neighbours.
+/// A duration rounded to the nearest second, half a second up. Where the duration is half a second
+/// and `f64` cannot tell from which side, `stated` is taken if it is one of the two neighbours.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -127,7 +132,8 @@ mod tests {
 
     #[test]
     fn only_at_half_a_second_may_a_schedule_say_which_way() {
-        // 12.3 miles at 80 mph take half a second exactly, which in binary is on one side or the other.
+        // 12.3 miles at 80 mph take half a second exactly, which in binary is on one side or the
+        // other.
         let half = 3600.0 * 12.3 / 80.0;
         assert_eq!(nearest(half, Some(553)), 553);
         assert_eq!(nearest(half, Some(554)), 554);

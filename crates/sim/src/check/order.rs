@@ -6,7 +6,8 @@ use super::Rule;
 use super::report::Findings;
 use crate::Trace;
 
-/// Checks that each row comes after the one before it, and that no aircraft decides twice at one instant.
+/// Checks that each row comes after the one before it, and that no aircraft decides twice at one
+/// instant.
 pub(super) fn check(scenario: &Scenario, trace: &Trace, findings: &mut Findings) {
     for (pair, number) in trace.rows.windows(2).zip(2..) {
         let (before, row) = (&pair[0], &pair[1]);

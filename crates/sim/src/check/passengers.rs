@@ -1,5 +1,6 @@
-//! Passengers (Eq. 11): a flight takes as many as want to fly and have a seat, which reduces the demand at once. Where
-//! passengers wait, those who are left of the period before can board first, until they have waited long enough.
+//! Passengers (Eq. 11): a flight takes as many as want to fly and have a seat, which reduces the
+//! demand at once. Where passengers wait, those who are left of the period before can board first,
+//! until they have waited long enough.
 
 use vertifleet_core::Scenario;
 

@@ -1,4 +1,5 @@
-//! The pairs that may be flown: corridors and closures (docs/src/concepts/model.md, beyond the paper).
+//! The pairs that may be flown: corridors and closures (docs/src/concepts/model.md, beyond the
+//! paper).
 
 use vertifleet_core::Scenario;
 

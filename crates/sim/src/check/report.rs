@@ -1,4 +1,5 @@
-//! The report: findings, how often each rule is broken, and the day's totals, computed from the rules.
+//! The report: findings, how often each rule is broken, and the day's totals, computed from the
+//! rules.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,8 +12,8 @@ use super::Rule;
 use super::event::Event;
 use super::expected::Expected;
 
-/// The most findings kept of each rule. All are counted, but a file in which everything is wrong does not fill the
-/// memory.
+/// The most findings kept of each rule. All are counted, but a file in which everything is wrong
+/// does not fill the memory.
 const KEPT_OF_EACH_RULE: usize = 1_000;
 /// The most findings printed in the text form.
 const SHOWN: usize = 100;
@@ -32,8 +33,9 @@ pub struct Finding {
     pub detail: String,
 }
 
-/// The day's account, computed from the schedule and the rules and not from the amounts that the schedule states.
-/// Members are named as in the simulator's [`DayTotals`](crate::DayTotals), in dollars, kWh and counts.
+/// The day's account, computed from the schedule and the rules and not from the amounts that the
+/// schedule states. Members are named as in the simulator's [`DayTotals`](crate::DayTotals), in
+/// dollars, kWh and counts.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Totals {
     /// Revenue less all costs (Eq. 5).
@@ -145,7 +147,8 @@ impl Findings {
 /// The checker's report on a schedule. It prints as text and serialises for programs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// The places where rules are broken, in the order of the day; at most the first 1,000 of each rule.
+    /// The places where rules are broken, in the order of the day; at most the first 1,000 of each
+    /// rule.
     pub findings: Vec<Finding>,
     /// How often each broken rule is broken, including findings that were not kept.
     pub broken: BTreeMap<Rule, usize>,

@@ -1,4 +1,5 @@
-//! The rules by name. Names are stable, because `--json` prints them and the documentation lists them.
+//! The rules by name. Names are stable, because `--json` prints them and the documentation lists
+//! them.
 
 use std::fmt;
 

@@ -1,9 +1,11 @@
-//! Stands (Eq. 16): U_i, the number of aircraft standing at i or in the air towards it, is between 0 and U_max at every
-//! instant. The same holds for chargers, where a vertiport has chargers beside its other stands.
+//! Stands (Eq. 16): U_i, the number of aircraft standing at i or in the air towards it, is between
+//! 0 and U_max at every instant. The same holds for chargers, where a vertiport has chargers beside
+//! its other stands.
 //!
-//! U_i only changes at a take-off, from the vertiport that an aircraft leaves to the one that it flies to, so checking
-//! each take-off checks every instant. At one instant the aircraft listed first moves first, and the stand that it
-//! leaves is free for the next. With chargers, a hold moves an aircraft from its charger to a stand, if one is free.
+//! U_i only changes at a take-off, from the vertiport that an aircraft leaves to the one that it
+//! flies to, so checking each take-off checks every instant. At one instant the aircraft listed
+//! first moves first, and the stand that it leaves is free for the next. With chargers, a hold
+//! moves an aircraft from its charger to a stand, if one is free.
 
 use vertifleet_core::Scenario;
 

@@ -1,4 +1,5 @@
-//! A flight's times, with its delay and its aircraft's outages, and whether its battery lasts (Eq. 7, 9, 12, 14, 15).
+//! A flight's times, with its delay and its aircraft's outages, and whether its battery lasts (Eq.
+//! 7, 9, 12, 14, 15).
 
 use vertifleet_core::Scenario;
 

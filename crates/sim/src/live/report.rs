@@ -49,15 +49,16 @@ pub enum Report {
         /// The aircraft.
         aircraft: AircraftIx,
     },
-    /// What an aircraft does next is expected at another time: its departure if it has been sent off, its landing if it
-    /// is in the air, the end of charging if it stands.
+    /// What an aircraft does next is expected at another time: its departure if it has been sent
+    /// off, its landing if it is in the air, the end of charging if it stands.
     Delayed {
         /// The aircraft.
         aircraft: AircraftIx,
         /// That time.
         until: Time,
     },
-    /// An aircraft cannot fly again before a time, or until it is back in service. If it is in the air, it still lands.
+    /// An aircraft cannot fly again before a time, or until it is back in service. If it is in the
+    /// air, it still lands.
     OutOfService {
         /// The aircraft.
         aircraft: AircraftIx,
@@ -81,8 +82,8 @@ pub enum Report {
         /// The routes.
         routes: Routes,
     },
-    /// This many passengers of a period still want to fly, actual or forecast. Those who wait in it since the period
-    /// before are not among them, and go on waiting.
+    /// This many passengers of a period still want to fly, actual or forecast. Those who wait in it
+    /// since the period before are not among them, and go on waiting.
     Demand {
         /// Position of the period.
         period: usize,
@@ -94,7 +95,8 @@ pub enum Report {
         /// The seats.
         booking: Booking,
     },
-    /// Passengers do not want to fly any more. Their period may be over, if they wait in the next one.
+    /// Passengers do not want to fly any more. Their period may be over, if they wait in the next
+    /// one.
     Cancelled {
         /// The seats.
         booking: Booking,
@@ -354,7 +356,8 @@ pub enum ReportError {
         /// The limit.
         most: u32,
     },
-    /// A period, an aircraft or a vertiport that the day does not have, or a route from a vertiport to itself.
+    /// A period, an aircraft or a vertiport that the day does not have, or a route from a vertiport
+    /// to itself.
     #[error("the day has no such {0}")]
     Unknown(&'static str),
 }

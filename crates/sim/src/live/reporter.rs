@@ -1,4 +1,5 @@
-//! A simulated day, told as a live day would hear of it: report by report, each when it becomes known.
+//! A simulated day, told as a live day would hear of it: report by report, each when it becomes
+//! known.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -11,12 +12,13 @@ use crate::{DayTotals, Decision, Refusal, Simulation, TraceRow};
 
 /// Plays a day that is known, and reports what happens on it.
 ///
-/// A live day that is told these reports, each before any decision that is later, sees at every decision what a policy
-/// sees in the simulation.
+/// A live day that is told these reports, each before any decision that is later, sees at every
+/// decision what a policy sees in the simulation.
 #[derive(Debug, Clone)]
 pub struct Reporter {
     day: Simulation,
-    /// What will be reported, with its time; of several with one time, the first entered comes first.
+    /// What will be reported, with its time; of several with one time, the first entered comes
+    /// first.
     later: BinaryHeap<Reverse<(Time, u64, usize)>>,
     reports: Vec<Option<Report>>,
     entered: u64,
@@ -60,8 +62,8 @@ impl Reporter {
         reporter
     }
 
-    /// Closures may overlap, so a route is open again when the last of them ends. If that is one that was known, its end
-    /// is reported again.
+    /// Closures may overlap, so a route is open again when the last of them ends. If that is one
+    /// that was known, its end is reported again.
     fn report_closures(&mut self, changes: &[(Time, bool, VertiportIx, VertiportIx)]) {
         let size = self.day.scenario().vertiports.len();
         let mut in_force = vec![0_u32; size * size];
@@ -108,7 +110,8 @@ impl Reporter {
         }
     }
 
-    /// Carries the decision out that is taken now. What it leads to is reported when it becomes known.
+    /// Carries the decision out that is taken now. What it leads to is reported when it becomes
+    /// known.
     ///
     /// # Errors
     /// The errors of [`Simulation::apply`].
@@ -118,8 +121,9 @@ impl Reporter {
         Ok(())
     }
 
-    /// Carries out what people have decided for an aircraft at a time, in whatever order they decide and whatever the rules
-    /// of the simulated day say: they may know of things that it does not. Returns where the aircraft stood.
+    /// Carries out what people have decided for an aircraft at a time, in whatever order they
+    /// decide and whatever the rules of the simulated day say: they may know of things that it does
+    /// not. Returns where the aircraft stood.
     ///
     /// # Errors
     /// Returns [`Refusal::NoSuchVertiport`].
@@ -184,7 +188,8 @@ impl Reporter {
         }
     }
 
-    /// Reports the outages that keep an aircraft on the ground after a landing, each when it is known.
+    /// Reports the outages that keep an aircraft on the ground after a landing, each when it is
+    /// known.
     fn report_outages(&mut self, aircraft: AircraftIx, decided: Time, arrival: Time) {
         let scenario = Arc::clone(self.day.scenario());
         let holds = scenario

@@ -13,12 +13,14 @@ use crate::TraceRow;
 const LONGEST_STEP_S: u32 = 4 * 3_600;
 
 impl LiveDay {
-    /// Whether a report may be a slip of the pen: it lies hours after everything that the day has heard of, something that
-    /// it tells was over before, a flight landed before it departed, or a hold is taken back when nothing can be decided in
-    /// its place any more. Since the clock never runs back, the first does harm that cannot be undone.
+    /// Whether a report may be a slip of the pen: it lies hours after everything that the day has
+    /// heard of, something that it tells was over before, a flight landed before it departed, or a
+    /// hold is taken back when nothing can be decided in its place any more. Since the clock never
+    /// runs back, the first does harm that cannot be undone.
     ///
     /// # Errors
-    /// Returns [`ReportError::TooFarAhead`], [`ReportError::AfterTheDay`], [`ReportError::Backwards`], [`ReportError::BeforeDeparture`] or [`ReportError::Over`].
+    /// Returns [`ReportError::TooFarAhead`], [`ReportError::AfterTheDay`],
+    /// [`ReportError::Backwards`], [`ReportError::BeforeDeparture`] or [`ReportError::Over`].
     pub fn check_times(&self, time: Time, report: &Report) -> Result<(), ReportError> {
         match *report {
             // The clock itself may jump, but not to where no aircraft of the day is any more.
@@ -67,11 +69,12 @@ impl LiveDay {
         }
     }
 
-    /// Takes a report in. `time` is when it happened; reports may come late, but the day's clock never runs back.
-    /// Returns what people should look at.
+    /// Takes a report in. `time` is when it happened; reports may come late, but the day's clock
+    /// never runs back. Returns what people should look at.
     ///
     /// # Errors
-    /// Returns an [`ReportError`] if the report makes no sense or is a decision that breaks a rule. Nothing has changed then.
+    /// Returns an [`ReportError`] if the report makes no sense or is a decision that breaks a rule.
+    /// Nothing has changed then.
     pub fn take(&mut self, time: Time, report: &Report) -> Result<Vec<Notice>, ReportError> {
         let mut notices = Vec::new();
         match *report {
@@ -186,7 +189,8 @@ impl LiveDay {
         }
     }
 
-    /// Enters a decision that the simulator has carried out. Of the pair, so many were `waiting` before it.
+    /// Enters a decision that the simulator has carried out. Of the pair, so many were `waiting`
+    /// before it.
     fn enter(&mut self, row: TraceRow, before: Before, waiting: u32) {
         let (period, flight) = (self.known.period, self.decisions.len());
         let waited = u16::try_from(waiting).map_or(row.passengers, |all| all.min(row.passengers));

@@ -4,11 +4,13 @@ use vertifleet_core::{Closure, Error, Matrix, Route, Scenario, Time, VertiportIx
 
 use super::LiveDay;
 
-/// What is left of a day as far as it is known. A schedule of it earns what the flights earn that are still to be decided.
+/// What is left of a day as far as it is known. A schedule of it earns what the flights earn that
+/// are still to be decided.
 #[derive(Debug, Clone)]
 pub struct RemainingDay {
-    /// The day from now on: who still wants to fly, and every aircraft at the vertiport where it stands or will land. Where
-    /// more aircraft are than there are stands, there are as many stands. The fleet itself costs nothing.
+    /// The day from now on: who still wants to fly, and every aircraft at the vertiport where it
+    /// stands or will land. Where more aircraft are than there are stands, there are as many
+    /// stands. The fleet itself costs nothing.
     pub day: Scenario,
     /// When each aircraft is expected to be ready.
     pub ready: Vec<Time>,
@@ -18,7 +20,8 @@ impl LiveDay {
     /// What is left of the day; `None` if no decision can be taken any more.
     ///
     /// # Errors
-    /// Returns an error if what has been reported does not make a day, such as closures beyond the bounds of the format.
+    /// Returns an error if what has been reported does not make a day, such as closures beyond the
+    /// bounds of the format.
     pub fn what_is_left(&mut self) -> Result<Option<RemainingDay>, Error> {
         let now = self.now;
         if now >= self.scenario().operations.end {
@@ -53,7 +56,8 @@ impl LiveDay {
             let all = limit + parked;
             vertiport.stands = all.max(there);
             if let Some(chargers) = &mut vertiport.chargers {
-                // A day begins with its aircraft on stands. What counts for a bound is the sum of both.
+                // A day begins with its aircraft on stands. What counts for a bound is the sum of
+                // both.
                 vertiport.stands = parked.max(there);
                 *chargers = all.saturating_sub(vertiport.stands).max(1);
             }

@@ -1,7 +1,7 @@
 //! Reads a trace: bounded and strict, with line and column of every error.
 //!
-//! The reader only requires that every column can hold its value. The [checker](crate::check) judges whether the
-//! schedule keeps the rules of the day.
+//! The reader only requires that every column can hold its value. The [checker](crate::check)
+//! judges whether the schedule keeps the rules of the day.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -169,8 +169,8 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The line on which a record starts. It is counted anew, because the parser's own count lags behind where the
-    /// parser skips empty lines or the second half of a CR LF.
+    /// The line on which a record starts. It is counted anew, because the parser's own count lags
+    /// behind where the parser skips empty lines or the second half of a CR LF.
     fn line(&self, record: &ByteRecord) -> usize {
         let position = record.position().map_or(0, csv::Position::byte);
         let mut start =

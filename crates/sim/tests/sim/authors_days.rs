@@ -1,9 +1,10 @@
-//! Replays days of the paper's authors' public environment, aircraft by aircraft. With the authors' rules as settings,
-//! the simulator sells the same tickets and earns the same profit.
+//! Replays days of the paper's authors' public environment, aircraft by aircraft. With the authors'
+//! rules as settings, the simulator sells the same tickets and earns the same profit.
 //!
-//! The days lie outside the repository, in `../shared/data` beside it (repository `iamstevepaul/UAM_fleet_Scheduling`,
-//! its first 20 committed test days, each played once with feasible random decisions). Where they are absent there is
-//! nothing to compare, and the test prints that. `networks/as-coded.toml` has the same settings.
+//! The days lie outside the repository, in `../shared/data` beside it (repository
+//! `iamstevepaul/UAM_fleet_Scheduling`, its first 20 committed test days, each played once with
+//! feasible random decisions). Where they are absent there is nothing to compare, and the test
+//! prints that. `networks/as-coded.toml` has the same settings.
 
 use std::collections::VecDeque;
 use std::path::Path;
@@ -16,8 +17,8 @@ use vertifleet_sim::{Refusal, Simulation, Trace};
 
 const DAYS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/authors-days.json");
 
-/// The authors' flights carry a full cabin or no passengers: where fewer than 4 passengers are left, no ticket is sold.
-/// That is equivalent to rounding demand down to whole cabins.
+/// The authors' flights carry a full cabin or no passengers: where fewer than 4 passengers are
+/// left, no ticket is sold. That is equivalent to rounding demand down to whole cabins.
 const SEATS: u32 = 4;
 
 /// One aircraft's decision: origin, destination, and time in hours.
@@ -78,8 +79,9 @@ struct Replayed {
     decisions: usize,
 }
 
-/// Lets every aircraft take its own decisions in their order, when our clock asks it. Where two decisions have changed
-/// places, so that one of them frees a charger too late for the other, the error says at which vertiport and when.
+/// Lets every aircraft take its own decisions in their order, when our clock asks it. Where two
+/// decisions have changed places, so that one of them frees a charger too late for the other, the
+/// error says at which vertiport and when.
 fn replay(day: &Value, scenario: &Arc<Scenario>) -> Result<Replayed, (VertiportIx, Time)> {
     let mut moves: Vec<VecDeque<(usize, Move)>> = vec![VecDeque::new(); scenario.aircraft.len()];
     for (order, one) in list(&day["moves"]).iter().enumerate() {

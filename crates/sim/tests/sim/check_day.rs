@@ -1,7 +1,7 @@
 //! A day of three vertiports and two aircraft, and a schedule for it worked out by hand.
 //!
-//! At 60 mph a mile takes a minute. At 1 kWh per mile, charging a mile's energy again at 60 kW takes another minute. 6
-//! % of 100 kWh are lost in an hour, which is 0.1 kWh in a minute.
+//! At 60 mph a mile takes a minute. At 1 kWh per mile, charging a mile's energy again at 60 kW
+//! takes another minute. 6 % of 100 kWh are lost in an hour, which is 0.1 kWh in a minute.
 
 use vertifleet_core::{
     Aircraft, AircraftIx, AircraftType, Day, Disturbances, Matrix, Operations, Time, TypeIx,
@@ -69,15 +69,17 @@ pub(crate) fn day() -> Day {
 /// Five decisions that keep every rule.
 pub(crate) fn schedule() -> Trace {
     let rows = vec![
-        // 4 of 6 passengers; 40 miles, 50 minutes, 40 + 5 kWh, 45 minutes of charging, at the early price.
+        // 4 of 6 passengers; 40 miles, 50 minutes, 40 + 5 kWh, 45 minutes of charging, at the early
+        // price.
         flight(("06:00:00", 0), (0, 2), 4, [200.0, 104.0, 45.0, 9.0], ("06:50:00", "07:35:00")),
         // V1's only stand has just become free. 3 passengers; 20 miles, 30 minutes, 20 + 3 kWh.
         flight(("06:00:00", 1), (1, 0), 3, [90.0, 39.0, 23.0, 4.6], ("06:30:00", "06:53:00")),
-        // The 2 passengers left of the early period, with charging at the late price. V3 is full then.
+        // The 2 passengers left of the early period, with charging at the late price. V3 is full
+        // then.
         flight(("06:53:00", 1), (0, 2), 2, [100.0, 52.0, 45.0, 13.5], ("07:43:00", "08:28:00")),
         flight(("07:35:00", 0), (2, 2), 0, [0.0; 4], ("07:35:00", "07:50:00")),
-        // No passengers. 40.01 miles: 2400.6 s of cruise are rounded to 2401, 3001 s in all; 40.01 + 6 * 3001 / 3600
-        // kWh, 2700.7 s of charging are rounded to 2701.
+        // No passengers. 40.01 miles: 2400.6 s of cruise are rounded to 2401, 3001 s in all;
+        // 40.01 + 6 * 3001 / 3600 kWh, 2700.7 s of charging are rounded to 2701.
         flight(
             ("07:50:00", 0),
             (2, 0),

@@ -1,4 +1,5 @@
-//! Every rule of the checker on a schedule worked out by hand, both kept and broken by the smallest possible edit.
+//! Every rule of the checker on a schedule worked out by hand, both kept and broken by the smallest
+//! possible edit.
 
 use vertifleet_core::{AircraftIx, Closure, Day, Outage, Route, TakeoffDelays, Time, VertiportIx};
 use vertifleet_sim::check::{Report, Rule, check};
@@ -95,7 +96,8 @@ fn break_rule(rule: Rule, day: &mut Day, rows: &mut Vec<TraceRow>) -> bool {
                 vec![Closure { route: route(0, 2), start, end, known: false }];
         }
         Rule::TakeoffDelay => {
-            // Row 4 leaves V3 in the second hour, a minute late; the price of its energy stays the same.
+            // Row 4 leaves V3 in the second hour, a minute late; the price of its energy stays the
+            // same.
             let delay_s = vec![vec![0, 0, 0], vec![0, 0, 60], vec![0, 0, 0]];
             day.disturbances.takeoff_delays = Some(TakeoffDelays { slot_s: 3600, delay_s });
             rows[4].ready = rows[4].ready + 60;

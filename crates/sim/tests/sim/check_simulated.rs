@@ -1,5 +1,5 @@
-//! Simulator and checker, written independently, agree: the checker passes what the simulator plays, and refuses it
-//! with one row edited.
+//! Simulator and checker, written independently, agree: the checker passes what the simulator
+//! plays, and refuses it with one row edited.
 
 use std::sync::Arc;
 
@@ -15,7 +15,8 @@ use vertifleet_sim::{DayTotals, Simulation, Trace, TraceRow};
 use vertifleet_testkit::extended_day;
 use vertifleet_testkit::small_day;
 
-/// Plays a day at random. Each draw chooses among the feasible vertiports; the draws are used cyclically.
+/// Plays a day at random. Each draw chooses among the feasible vertiports; the draws are used
+/// cyclically.
 fn play(day: &Arc<Scenario>, draws: &[u32]) -> (DayTotals, Trace) {
     let mut simulation = Simulation::new(Arc::clone(day));
     let mut trace = Trace::default();
@@ -32,8 +33,9 @@ fn draws() -> impl Strategy<Value = Vec<u32>> {
     prop::collection::vec(any::<u32>(), 1..40)
 }
 
-/// The day with distances in tenths of a mile, and speeds at which many cruises last a whole number of seconds and a
-/// half. Users type such numbers, and two ways to compute a duration may round them differently.
+/// The day with distances in tenths of a mile, and speeds at which many cruises last a whole number
+/// of seconds and a half. Users type such numbers, and two ways to compute a duration may round
+/// them differently.
 fn in_round_numbers(day: &Arc<Scenario>) -> Arc<Scenario> {
     let mut day = Scenario::clone(day).into_day();
     for distance_mi in day.distance_mi.cells_mut() {
@@ -46,7 +48,8 @@ fn in_round_numbers(day: &Arc<Scenario>) -> Arc<Scenario> {
     Arc::new(day.check("day in round numbers").expect("a day within the rules"))
 }
 
-/// The day with every distance at the end of the first type's range but for `off` millionths of a mile.
+/// The day with every distance at the end of the first type's range but for `off` millionths of a
+/// mile.
 fn at_the_end_of_the_range(day: &Arc<Scenario>, off: &[f64]) -> Arc<Scenario> {
     let mut day = Scenario::clone(day).into_day();
     let kind = &day.aircraft_types[0];

@@ -1,4 +1,5 @@
-//! Policies do not see the future: the view of a decision does not change when later events are changed.
+//! Policies do not see the future: the view of a decision does not change when later events are
+//! changed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -25,8 +26,8 @@ fn slot(day: &Scenario, time: Time) -> usize {
     delays.map_or(0, |delays| time.since(day.operations.start) / delays.slot_s) as usize
 }
 
-/// The day with everything changed that cannot be known at `now`, when flights have left the vertiports `left` in the
-/// current slot of take-off delays.
+/// The day with everything changed that cannot be known at `now`, when flights have left the
+/// vertiports `left` in the current slot of take-off delays.
 fn with_another_future(
     day: &Scenario,
     now: Time,
@@ -75,8 +76,8 @@ fn with_another_future(
     Arc::new(day.check("another future").expect("a day within the rules"))
 }
 
-/// The views at the first `count` decisions of a day, at most, the time of the last of them, and the vertiports that
-/// flights have left by then in its slot of take-off delays.
+/// The views at the first `count` decisions of a day, at most, the time of the last of them, and
+/// the vertiports that flights have left by then in its slot of take-off delays.
 fn course(
     day: &Arc<Scenario>,
     draws: &[u32],
@@ -116,7 +117,8 @@ proptest! {
         known.disturbances.forecast.get_or_insert_with(|| day.demand.clone());
         let known = Arc::new(known.check("known").expect("a day within the rules"));
         let (shown, now, left) = course(&known, &draws, count);
-        // Only as many decisions are compared, because whether there is another one depends on the future.
+        // Only as many decisions are compared, because whether there is another one depends on the
+        // future.
         let other = with_another_future(&known, now, &left, change);
         let (again, ..) = course(&other, &draws, shown.len());
         prop_assert!(shown == again);

@@ -8,8 +8,8 @@ use vertifleet_sim::{Refusal, Simulation, TraceRow};
 
 use vertifleet_testkit::extended_day;
 
-/// Plays a day, with each draw choosing among the feasible vertiports; the draws are used cyclically. `each` is called
-/// after every step.
+/// Plays a day, with each draw choosing among the feasible vertiports; the draws are used
+/// cyclically. `each` is called after every step.
 fn play(
     day: &Arc<Scenario>,
     draws: &[u32],

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use vertifleet_core::{Closure, DaySeed, Network, Route, Time, VertiportIx};
 use vertifleet_sim::{Refusal, Simulation, View};
 
-/// A day of one aircraft, which has eight decisions if it only holds, with closures of one route. Each closure is given
-/// by the seconds from the start of the day until it begins, its duration in seconds, and whether it is known.
+/// A day of one aircraft, which has eight decisions if it only holds, with closures of one route.
+/// Each closure is given by the seconds from the start of the day until it begins, its duration in
+/// seconds, and whether it is known.
 fn day_with(closures: &[(u32, u32, bool)]) -> Simulation {
     let network = Network::shipped("paper").expect("a shipped network");
     let mut day = network.draw(DaySeed::validation(1).expect("a seed")).into_day();
@@ -40,7 +41,8 @@ fn imagined_days_carry_out_known_closures_and_leave_unknown_ones_as_they_are() {
         (vec![(1800, 1800, false)], "..xx....", "........"),
         (vec![(0, 1800, true)], "xx......", "xx......"),
         (vec![(0, 1800, false)], "xx......", "xxxxxxxx"),
-        // An unknown closure that is in force lasts on imagined days, even beside a known one that ends.
+        // An unknown closure that is in force lasts on imagined days, even beside a known one that
+        // ends.
         (vec![(0, 1800, false), (0, 3600, true)], "xxxx....", "xxxxxxxx"),
         (vec![(0, 900, true), (900, 900, true), (1000, 900, false)], "xxx.....", "xx......"),
     ] {

@@ -1,4 +1,5 @@
-//! Live days: told what happens, they are the simulated day; told anything else, they keep every rule that reality does.
+//! Live days: told what happens, they are the simulated day; told anything else, they keep every
+//! rule that reality does.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;

@@ -1,5 +1,6 @@
-//! Passengers who wait into the next demand period: who boards first, when they leave, and what live days make of
-//! reports about them. The days are of one pair of vertiports, with numbers worked out by hand.
+//! Passengers who wait into the next demand period: who boards first, when they leave, and what
+//! live days make of reports about them. The days are of one pair of vertiports, with numbers
+//! worked out by hand.
 
 use std::sync::Arc;
 
@@ -33,8 +34,9 @@ fn vertiport(id: &str) -> Vertiport {
     }
 }
 
-/// A day of three periods of an hour, from midnight on. 6, 3 and 1 passengers want to fly from A to B, for 10, 20 and 40
-/// dollars. There are 8 aircraft with 4 seats at A, which can decide every minute.
+/// A day of three periods of an hour, from midnight on. 6, 3 and 1 passengers want to fly from A to
+/// B, for 10, 20 and 40 dollars. There are 8 aircraft with 4 seats at A, which can decide every
+/// minute.
 fn day(passenger_wait_s: u32) -> Arc<Scenario> {
     let of_pair = |passengers: u32| {
         Matrix::from_fn(2, |from, to| if (from, to) == (A, B) { passengers } else { 0 })
@@ -78,7 +80,8 @@ fn day(passenger_wait_s: u32) -> Arc<Scenario> {
     Arc::new(day.check("waiting").expect("a day within the rules"))
 }
 
-/// Every passenger is counted once, in the period in which they wanted to fly, and the checker finds the same ones left.
+/// Every passenger is counted once, in the period in which they wanted to fly, and the checker
+/// finds the same ones left.
 fn account_for(day: &Scenario, trace: &Trace) {
     let (mut boarded, mut carried) = (Boarded::of(day), [0_u32; 3]);
     for row in &trace.rows {
@@ -96,8 +99,8 @@ fn account_for(day: &Scenario, trace: &Trace) {
     }
 }
 
-/// Plays a day on which the aircraft that are asked first at these seconds fly from A to B, and all others hold. Returns
-/// the passengers whom each flight found and took, and its revenue.
+/// Plays a day on which the aircraft that are asked first at these seconds fly from A to B, and all
+/// others hold. Returns the passengers whom each flight found and took, and its revenue.
 fn flights(day: &Arc<Scenario>, decided_s: &[u32]) -> Vec<(u32, u16, f64)> {
     let mut simulation = Simulation::new(Arc::clone(day));
     let mut next = decided_s.iter().peekable();
@@ -124,7 +127,8 @@ fn flights(day: &Arc<Scenario>, decided_s: &[u32]) -> Vec<(u32, u16, f64)> {
 
 #[test]
 fn those_who_have_waited_board_first_and_all_pay_the_fare_of_the_decision() {
-    // 6 wait beside 3. The first flight takes 4 of the 6, so all of the 3 are there when the others have left.
+    // 6 wait beside 3. The first flight takes 4 of the 6, so all of the 3 are there when the others
+    // have left.
     assert_eq!(flights(&day(600), &[HOUR, HOUR + 600]), [(9, 4, 80.0), (3, 3, 60.0)]);
     // Two of the 6 are left, and board before two of the 3.
     assert_eq!(

@@ -1,7 +1,8 @@
 //! Who was carried and who was not: by period, by pair, and by both.
 //!
-//! Pairs that no aircraft of the day can fly, because they have no corridor or are beyond the range of every aircraft, lose all of
-//! their demand whatever is decided. They are counted apart and come last.
+//! Pairs that no aircraft of the day can fly, because they have no corridor or are beyond the range
+//! of every aircraft, lose all of their demand whatever is decided. They are counted apart and come
+//! last.
 
 use std::cmp::Ordering;
 
@@ -48,7 +49,8 @@ pub struct PairLoss {
     /// Its demand.
     #[serde(flatten)]
     pub demand: Loss,
-    /// Whether some aircraft of the day can fly it: there is a corridor, and it is within the range.
+    /// Whether some aircraft of the day can fly it: there is a corridor, and it is within the
+    /// range.
     pub can_be_flown: bool,
     /// Flights.
     pub flights: u32,

@@ -115,7 +115,8 @@ pub(crate) fn vertiports(account: &Account) -> Vec<Vec<String>> {
     rows
 }
 
-/// What aircraft did, as means by type. Time out of service has a column only where an outage kept an aircraft on the ground.
+/// What aircraft did, as means by type. Time out of service has a column only where an outage kept
+/// an aircraft on the ground.
 pub(crate) fn types(account: &Account) -> Vec<Vec<String>> {
     let has_outages = account.aircraft.iter().any(|one| one.out_of_service_h > 0.0);
     let mut head =

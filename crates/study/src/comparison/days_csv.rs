@@ -5,7 +5,8 @@ use crate::record::{ComparisonRecords, DayRecord};
 /// The days of the study as CSV with a header row; policies in the order in which they were named.
 ///
 /// # Panics
-/// Never panics: writing rows of numbers and text to memory cannot fail, and a study has at least one day.
+/// Never panics: writing rows of numbers and text to memory cannot fail, and a study has at least
+/// one day.
 pub(crate) fn text(study: &ComparisonRecords) -> String {
     let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
     let days = || {

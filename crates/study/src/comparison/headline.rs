@@ -5,7 +5,8 @@ use vertifleet_picture::numbers::{counted, dollars, grouped, p_statement, signed
 use super::summary::{ComparisonReport, PairedDifference, PolicySummary};
 use crate::origin::NetworkOrigin;
 
-/// Says how much the best policy earns, and whether its lead over the reference is more than chance.
+/// Says how much the best policy earns, and whether its lead over the reference is more than
+/// chance.
 pub(crate) fn text(summary: &ComparisonReport) -> String {
     let best = summary.best();
     let earns = format!(

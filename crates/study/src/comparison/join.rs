@@ -4,24 +4,24 @@ use crate::error::Error;
 use crate::record::{ComparisonRecords, LatencySummary, PolicyRecord};
 
 impl ComparisonRecords {
-    /// Joins parts into the study of all of their days. Each part must begin with the day after the last day of the
-    /// part before it.
+    /// Joins parts into the study of all of their days. Each part must begin with the day after the
+    /// last day of the part before it.
     ///
-    /// The records are the same as those of one study of all days, except for the times per decision: the percentiles
-    /// of all decisions do not follow from those of the parts, so each is the highest of the parts' percentiles, which
-    /// no part exceeded.
+    /// The records are the same as those of one study of all days, except for the times per
+    /// decision: the percentiles of all decisions do not follow from those of the parts, so each is
+    /// the highest of the parts' percentiles, which no part exceeded.
     ///
     /// # Errors
-    /// Returns [`Error::Empty`] if there are no parts, and [`Error::PartsDiffer`] if they do not have the same network
-    /// and policies, or if days are missing or occur twice.
+    /// Returns [`Error::Empty`] if there are no parts, and [`Error::PartsDiffer`] if they do not
+    /// have the same network and policies, or if days are missing or occur twice.
     pub fn join(parts: Vec<Self>) -> Result<Self, Error> {
         let mut parts = parts.into_iter();
         let mut whole = parts.next().ok_or(Error::Empty { policies: 0, days: 0 })?;
         for part in parts {
             whole.check_goes_on(&part)?;
             whole.days += part.days;
-            // The origin was determined from the days of a part, and one part may have missed that the network was
-            // changed.
+            // The origin was determined from the days of a part, and one part may have missed that
+            // the network was changed.
             whole.network_origin = whole.network_origin.with(part.network_origin);
             for (policy, part) in whole.policies.iter_mut().zip(part.policies) {
                 policy.decision_ns = slower(policy.decision_ns, part.decision_ns);

@@ -281,7 +281,8 @@ fn published_cells(summary: &ComparisonReport, result: &PublishedResult) -> Mark
     }
 }
 
-/// The days that can be watched, in a frame of their own, which keeps their style and their scripts apart from the page.
+/// The days that can be watched, in a frame of their own, which keeps their style and their scripts
+/// apart from the page.
 fn replay(&Replay { days, page }: &Replay<'_>, has_files: bool) -> Markup {
     let which =
         if days == 1 { "The first day".to_owned() } else { format!("The first {days} days") };

@@ -14,8 +14,8 @@ use crate::table::{self, append_aligned, estimate};
 
 /// The column of the share of the bound.
 const SHARE_COLUMN: usize = 4;
-/// The text that `compare` prints: policies by mean profit, then the t-test of every pair on the daily profit. There
-/// is no line end after the last line.
+/// The text that `compare` prints: policies by mean profit, then the t-test of every pair on the
+/// daily profit. There is no line end after the last line.
 pub(crate) fn text(summary: &ComparisonReport) -> String {
     let changed = if summary.network_origin == NetworkOrigin::Changed { " (changed)" } else { "" };
     let mut text =

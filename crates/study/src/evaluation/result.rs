@@ -1,4 +1,5 @@
-//! The result file of one policy on one suite: what is claimed, and every choice, from which it can be verified.
+//! The result file of one policy on one suite: what is claimed, and every choice, from which it can
+//! be verified.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -38,7 +39,8 @@ pub struct ResultFile {
     pub suite: String,
     /// The policy.
     pub policy: ResultPolicy,
-    /// What the authors say about it, which cannot be verified: days and seeds of training, training budget, code.
+    /// What the authors say about it, which cannot be verified: days and seeds of training,
+    /// training budget, code.
     pub about: BTreeMap<String, String>,
     /// Profit as a share of the day's upper bound.
     pub bound_share: Estimate,
@@ -60,12 +62,14 @@ pub struct ResultPolicy {
     pub description: String,
     /// What it looks at when it decides. This cannot be verified from choices.
     pub sees: Sees,
-    /// SHA-256 of its weight file, by which a reader finds the weights that played; `None` for a policy that has no
-    /// weights, or weights of another program. This cannot be verified from choices either.
+    /// SHA-256 of its weight file, by which a reader finds the weights that played; `None` for a
+    /// policy that has no weights, or weights of another program. This cannot be verified from
+    /// choices either.
     // With `deserialize_with`, serde rejects a result without this member, as the schema does.
     #[serde(deserialize_with = "Option::deserialize")]
     pub weights_sha256: Option<String>,
-    /// The time that one decision took on the machine of the evaluation; `None` for a reference that plans whole days.
+    /// The time that one decision took on the machine of the evaluation; `None` for a reference
+    /// that plans whole days.
     #[serde(deserialize_with = "Option::deserialize")]
     pub decision_ns: Option<LatencySummary>,
 }
@@ -82,8 +86,8 @@ pub struct ResultDay {
     pub upper_bound_usd: f64,
     /// The profit, in dollars.
     pub profit_usd: f64,
-    /// The positions of the vertiports that were chosen, decision by decision, from 0, with blanks between them. A
-    /// choice of the vertiport where the aircraft stands is a hold.
+    /// The positions of the vertiports that were chosen, decision by decision, from 0, with blanks
+    /// between them. A choice of the vertiport where the aircraft stands is a hold.
     pub choices: String,
 }
 
@@ -163,8 +167,8 @@ impl ResultFile {
     /// Reads a file. Its claims are not checked, [`verify`](super::verify) does that.
     ///
     /// # Errors
-    /// Returns [`Error::Core`] if the file cannot be read or is longer than 256 MiB, and [`Error::NotAResult`] if it is
-    /// not of this format.
+    /// Returns [`Error::Core`] if the file cannot be read or is longer than 256 MiB, and
+    /// [`Error::NotAResult`] if it is not of this format.
     pub fn read(path: &Path) -> Result<Self, Error> {
         Self::from_json(&read_at_most(path, LONGEST)?, &path.display().to_string())
     }
@@ -172,7 +176,8 @@ impl ResultFile {
     /// Reads the bytes of a file; `origin` stands for the file in messages.
     ///
     /// # Errors
-    /// Returns [`Error::NotAResult`] if they are not of this format, or have values that the format's schema refuses.
+    /// Returns [`Error::NotAResult`] if they are not of this format, or have values that the
+    /// format's schema refuses.
     pub fn from_json(bytes: &[u8], origin: &str) -> Result<Self, Error> {
         let not = |rule: String| Error::NotAResult { origin: origin.to_owned(), rule };
         let Format { format } =

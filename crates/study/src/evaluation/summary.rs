@@ -47,8 +47,8 @@ pub struct EvaluatedPolicy {
     /// Its shares of the bounds.
     #[serde(flatten)]
     pub share: PolicyShare,
-    /// The p-value of [`PolicyShare::minus_first`], corrected for the number of policies that are measured against the
-    /// first (Holm).
+    /// The p-value of [`PolicyShare::minus_first`], corrected for the number of policies that are
+    /// measured against the first (Holm).
     pub p_value_holm: Option<f64>,
     /// Profit of a day, in dollars.
     pub profit_usd: Estimate,
@@ -60,8 +60,8 @@ impl EvaluationReport {
     /// Computes the statistics of the records of some suites.
     ///
     /// # Errors
-    /// Returns [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records of a suite are not those of
-    /// policies on the same days.
+    /// Returns [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records of a
+    /// suite are not those of policies on the same days.
     pub fn of(suites: &[EvaluationRecords]) -> Result<Self, Error> {
         Ok(Self {
             format: FORMAT,
@@ -78,8 +78,8 @@ impl EvaluationReport {
         serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
     }
 
-    /// The statistics as text for a terminal: a table for each suite, and one of all suites if there are several. There
-    /// is no line end after the last line.
+    /// The statistics as text for a terminal: a table for each suite, and one of all suites if
+    /// there are several. There is no line end after the last line.
     pub fn text(&self) -> String {
         super::table::text(self)
     }

@@ -1,5 +1,5 @@
-//! Verifies a result: its days are drawn anew, its choices are played, the schedules are judged by the independent
-//! checker, and everything that is claimed is computed again.
+//! Verifies a result: its days are drawn anew, its choices are played, the schedules are judged by
+//! the independent checker, and everything that is claimed is computed again.
 
 use std::fmt::{self, Write as _};
 use std::str::FromStr;
@@ -19,7 +19,8 @@ use crate::statistics::Estimate;
 use crate::suite::{Suite, SuiteDay};
 use crate::table::estimate;
 
-/// Two numbers agree if they differ by no more than this share of them. Sums in another order differ by less.
+/// Two numbers agree if they differ by no more than this share of them. Sums in another order
+/// differ by less.
 const TOLERANCE: f64 = 1e-9;
 /// The most findings that are shown as text.
 const SHOWN: usize = 20;
@@ -46,8 +47,9 @@ pub struct Verification {
 /// Verifies a result.
 ///
 /// # Errors
-/// Returns [`Error::UnknownSuite`] for a result of an unknown suite, [`Error::SuiteChanged`] if the suite's days are
-/// not the ones that were frozen, and [`Error::Stopped`] soon after `stop` is requested.
+/// Returns [`Error::UnknownSuite`] for a result of an unknown suite, [`Error::SuiteChanged`] if the
+/// suite's days are not the ones that were frozen, and [`Error::Stopped`] soon after `stop` is
+/// requested.
 pub fn verify(result: &ResultFile, stop: &Stop) -> Result<Verification, Error> {
     let suite = Suite::find(&result.suite)?;
     let mut findings = Vec::new();
@@ -118,7 +120,8 @@ fn agree(claimed: f64, found: f64) -> bool {
     (claimed - found).abs() <= TOLERANCE * found.abs().max(1.0)
 }
 
-/// Plays the choices of a day. The record has what the day earns; the error says what does not hold.
+/// Plays the choices of a day. The record has what the day earns; the error says what does not
+/// hold.
 fn verified_day(day: &SuiteDay, claim: &ResultDay) -> Result<DayRecord, String> {
     let name = &day.scenario.name;
     if (&claim.day, &claim.hash) != (name, &day.hash) {
@@ -156,7 +159,8 @@ fn verified_day(day: &SuiteDay, claim: &ResultDay) -> Result<DayRecord, String> 
     })
 }
 
-/// The schedule of the choices, which must be those of the whole day, and what the simulator counted.
+/// The schedule of the choices, which must be those of the whole day, and what the simulator
+/// counted.
 fn played(day: &SuiteDay, choices: &str) -> Result<(Trace, DayTotals), String> {
     let mut choices = choices.split_ascii_whitespace().enumerate();
     let mut simulation = Simulation::new(Arc::clone(&day.scenario));

@@ -1,4 +1,5 @@
-//! The explanation as a page: that of the played day, with its bound and with what changes would be worth.
+//! The explanation as a page: that of the played day, with its bound and with what changes would be
+//! worth.
 
 use maud::html;
 use vertifleet_picture::numbers::{dollars, grouped, minutes};

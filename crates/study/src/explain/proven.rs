@@ -1,27 +1,31 @@
 //! What the bounds of a day and of its changes prove together.
 //!
-//! Each bound is searched for by itself, and each search stops a little above the lowest bound, so the plain difference of
-//! two bounds may be more than a change can be worth, or less than nothing where the change cannot harm. But the prices of
-//! one bound prove bounds of the other days too (docs/src/concepts/bound.md, "What the prices say"), since these days differ
-//! in one number of the sum
+//! Each bound is searched for by itself, and each search stops a little above the lowest bound, so
+//! the plain difference of two bounds may be more than a change can be worth, or less than nothing
+//! where the change cannot harm. But the prices of one bound prove bounds of the other days too
+//! (docs/src/concepts/bound.md, "What the prices say"), since these days differ in one number of
+//! the sum
 //!
 //! ```text
 //! sum of V(a) over aircraft a + sum of U_max(j) p(j, s) + sum of Q(i, j, t) q(i, j, t) - what the day costs anyway
 //! ```
 //!
-//! - *One more stand or charger* at j adds the sum of p(j, s), its shadow price, and takes off its cost. So the prices of the
-//!   changed day prove its bound less this shadow price, plus the cost, for the day as it is.
-//! - *One more aircraft* adds its V, which is no less than what it earns if it stays where it starts: nothing, less the price
-//!   of its stand. So the prices of the changed day prove its bound, plus the price of that stand and the cost, for the day as
-//!   it is. The other way round, V is at most what an aircraft of its type earns from the best start
+//! - *One more stand or charger* at j adds the sum of p(j, s), its shadow price, and takes off its
+//!   cost. So the prices of the changed day prove its bound less this shadow price, plus the cost,
+//!   for the day as it is.
+//! - *One more aircraft* adds its V, which is no less than what it earns if it stays where it
+//!   starts: nothing, less the price of its stand. So the prices of the changed day prove its
+//!   bound, plus the price of that stand and the cost, for the day as it is. The other way round, V
+//!   is at most what an aircraft of its type earns from the best start
 //!   ([`DesignBound`](vertifleet_optimize::DesignBound)).
 //! - *One more seat* can only raise V. So the changed day's bound is also one of the day as it is.
-//! - *A minute less for a take-off* proves nothing for the day as it is: aircraft are ready at other seconds, and what was
-//!   decided at the old ones need not be possible.
+//! - *A minute less for a take-off* proves nothing for the day as it is: aircraft are ready at
+//!   other seconds, and what was decided at the old ones need not be possible.
 //!
-//! The least of what is proven for the day as it is, is its bound here. A day with one more stand has the least of what all
-//! these prices prove for it. Every difference is then at least less the cost, because no price is below 0, and at most the
-//! shadow price less the cost, because the prices of the day's own bound are among them.
+//! The least of what is proven for the day as it is, is its bound here. A day with one more stand
+//! has the least of what all these prices prove for it. Every difference is then at least less the
+//! cost, because no price is below 0, and at most the shadow price less the cost, because the
+//! prices of the day's own bound are among them.
 
 use vertifleet_core::{Scenario, VertiportIx};
 use vertifleet_optimize::{Bound, DesignBound};
@@ -87,8 +91,8 @@ impl<'a> Proven<'a> {
         self.all[self.best].bound
     }
 
-    /// By how much the bound of a changed day is higher, after what the change costs. `bound` was searched for on the
-    /// changed day.
+    /// By how much the bound of a changed day is higher, after what the change costs. `bound` was
+    /// searched for on the changed day.
     pub(super) fn rise_usd(&self, change: &Change, bound: &Bound) -> f64 {
         let changed_usd = match change.effect {
             Effect::Stand(at) => {

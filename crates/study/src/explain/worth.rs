@@ -16,7 +16,8 @@ pub struct Worth {
     pub change: String,
     /// What the change costs, dollars: the fixed costs that the day states for it.
     pub cost_usd: f64,
-    /// By how much the policy earns more on the changed day, after this cost, dollars; `None` for a replay.
+    /// By how much the policy earns more on the changed day, after this cost, dollars; `None` for a
+    /// replay.
     pub policy_usd: Option<f64>,
     /// By how much the upper bound is higher on the changed day, after this cost, dollars.
     pub bound_usd: f64,

@@ -1,7 +1,8 @@
-//! Box plots of each policy's daily results (Fig. 4 and Fig. 5), also as a share of the upper bound.
+//! Box plots of each policy's daily results (Fig. 4 and Fig. 5), also as a share of the upper
+//! bound.
 //!
-//! Boxes are horizontal, one row per policy, so that names are readable and each day has a dot below the box. Rows are
-//! named, so colour carries no information that the text does not give.
+//! Boxes are horizontal, one row per policy, so that names are readable and each day has a dot
+//! below the box. Rows are named, so colour carries no information that the text does not give.
 
 use vertifleet_picture::axis::Scale;
 use vertifleet_picture::canvas::{
@@ -211,7 +212,8 @@ fn draw_box(canvas: &mut Canvas, scale: &Scale, summary: &BoxSummary, middle: f6
     }
 }
 
-/// One dot per day. Consecutive days stand at different heights, so that equal days do not hide each other.
+/// One dot per day. Consecutive days stand at different heights, so that equal days do not hide
+/// each other.
 fn draw_dots(canvas: &mut Canvas, scale: &Scale, values: &[f64], top: f64, series: usize) {
     let look = Look { fill: Some((Paint::Series(series), 0.45)), stroke: None };
     for (position, &value) in values.iter().enumerate() {

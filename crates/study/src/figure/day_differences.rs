@@ -1,5 +1,6 @@
-//! Day by day: by how much the best policy earns more than a reference on each day, sorted. The paper has no such
-//! figure; it shows whether a lead in the mean comes from most days or from a few.
+//! Day by day: by how much the best policy earns more than a reference on each day, sorted. The
+//! paper has no such figure; it shows whether a lead in the mean comes from most days or from a
+//! few.
 
 use std::fmt::Write as _;
 
@@ -20,7 +21,8 @@ const RIGHT: f64 = 24.0;
 const TOP: f64 = 96.0;
 const BOTTOM: f64 = 44.0;
 
-/// The bars of the days on which the best policy earns more, and of those on which it earns less, one path each.
+/// The bars of the days on which the best policy earns more, and of those on which it earns less,
+/// one path each.
 struct Bars {
     ahead: String,
     behind: String,

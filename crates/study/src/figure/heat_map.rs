@@ -1,5 +1,5 @@
-//! How two factors of a sweep act together: a cell for each pair of their values, darker where the first policy earns
-//! more.
+//! How two factors of a sweep act together: a cell for each pair of their values, darker where the
+//! first policy earns more.
 
 use vertifleet_picture::canvas::{Anchor, Canvas, Lettering, Look, Stroke, shortened};
 use vertifleet_picture::numbers::{grouped, typeset};
@@ -18,8 +18,8 @@ const BOTTOM: f64 = 60.0;
 /// With more values in a direction, numbers no longer fit.
 const MOST_VALUES: usize = 14;
 
-/// The figure of the two factors that matter most; `None` if there are not two, if they have too many values, or if not
-/// every pair of their values is in the design.
+/// The figure of the two factors that matter most; `None` if there are not two, if they have too
+/// many values, or if not every pair of their values is in the design.
 pub(super) fn figure(report: &SweepReport) -> Option<Figure> {
     if !report.is_grid {
         return None;

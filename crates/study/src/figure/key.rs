@@ -8,8 +8,8 @@ const LEFT: f64 = 16.0;
 const TOP: f64 = 72.0;
 const ROW: f64 = 22.0;
 
-/// The position at which each name's mark begins, and the middle of the last row. A mark has the width `mark`, the
-/// picture the width `width`.
+/// The position at which each name's mark begins, and the middle of the last row. A mark has the
+/// width `mark`, the picture the width `width`.
 pub(super) fn places(names: &[String], mark: f64, width: f64) -> (Vec<Point>, f64) {
     let (mut x, mut y) = (LEFT, TOP);
     let mut places = Vec::with_capacity(names.len());

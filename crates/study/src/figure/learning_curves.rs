@@ -1,5 +1,5 @@
-//! Learning curves: mean reward against decisions learned from, on the training days (Fig. 3) and on the validation
-//! days.
+//! Learning curves: mean reward against decisions learned from, on the training days (Fig. 3) and
+//! on the validation days.
 
 use vertifleet_picture::axis::Scale;
 use vertifleet_picture::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened};
@@ -76,7 +76,8 @@ pub(super) fn on_training_days(summary: &ComparisonReport) -> Option<Figure> {
     draw(summary, &ON_TRAINING_DAYS, policies.collect())
 }
 
-/// The learning curves on the validation days, with a line for each run; `None` if no policy was trained.
+/// The learning curves on the validation days, with a line for each run; `None` if no policy was
+/// trained.
 pub(super) fn on_validation_days(summary: &ComparisonReport) -> Option<Figure> {
     let policies = summary.trainings.iter().map(|training| PolicyCurves {
         name: &training.policy,
@@ -126,7 +127,8 @@ fn draw(
     Some(Figure { slug: chart.slug, caption: caption(summary, chart), svg: canvas.into_svg() })
 }
 
-/// Says which network's days the curves belong to: every policy that has one was trained on the network of the study.
+/// Says which network's days the curves belong to: every policy that has one was trained on the
+/// network of the study.
 fn caption(summary: &ComparisonReport, chart: &Chart) -> String {
     let fig_3 = match chart.slug {
         FIG_3 if summary.is_of_the_paper() => "Corresponds to Fig. 3 of the paper. ",
@@ -146,7 +148,8 @@ fn caption(summary: &ComparisonReport, chart: &Chart) -> String {
     )
 }
 
-/// The curve of a policy in the study has the policy's series; other curves take a series that no policy has.
+/// The curve of a policy in the study has the policy's series; other curves take a series that no
+/// policy has.
 fn series(summary: &ComparisonReport, name: &str, position: usize) -> usize {
     let policy = summary.policies.iter().position(|policy| policy.name == name);
     policy.unwrap_or(summary.policies.len() + position)
@@ -185,7 +188,8 @@ fn draw_lines(canvas: &mut Canvas, lines: &Lines) {
         canvas.polyline(run, false, Look::outlined(Stroke { paint, width: 1.0, dash }));
     }
     canvas.polyline(played, false, Look::outlined(Stroke { paint, width: 2.0, dash }));
-    // Each series starts its markers a little later, so that the markers of lines that run together do not overlap.
+    // Each series starts its markers a little later, so that the markers of lines that run together
+    // do not overlap.
     let every = (played.len() / MARKERS).max(1);
     let first = (lines.series * every / 3) % every;
     for &point in played.iter().skip(first).step_by(every) {

@@ -1,4 +1,5 @@
-//! How profit follows each factor of a sweep: a panel for each factor, a line with its band for each policy.
+//! How profit follows each factor of a sweep: a panel for each factor, a line with its band for
+//! each policy.
 
 use vertifleet_picture::axis::Scale;
 use vertifleet_picture::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened};

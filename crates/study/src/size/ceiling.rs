@@ -1,13 +1,15 @@
-//! An upper bound on the value of every design: the minimum of several valid bounds, each of which is tight near one design.
+//! An upper bound on the value of every design: the minimum of several valid bounds, each of which
+//! is tight near one design.
 //!
-//! The highest value of the least of some sums over a box is a linear programme. Its solver works in floating-point
-//! numbers and is not trusted: only the weights that it gives the bounds are used, and the price of room for aircraft. Any
-//! weights and any price prove a limit, because a weighted mean of bounds is a bound, and its highest value over a box can be
-//! read off.
+//! The highest value of the least of some sums over a box is a linear programme. Its solver works
+//! in floating-point numbers and is not trusted: only the weights that it gives the bounds are
+//! used, and the price of room for aircraft. Any weights and any price prove a limit, because a
+//! weighted mean of bounds is a bound, and its highest value over a box can be read off.
 
 use microlp::{ComparisonOp, OptimizationDirection, Problem, Solution, Variable};
 
-/// A bound as a function of the design: a constant, and so much for each thing above the lowest number, by dimension.
+/// A bound as a function of the design: a constant, and so much for each thing above the lowest
+/// number, by dimension.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Cut {
@@ -23,7 +25,8 @@ impl Cut {
     }
 }
 
-/// The rule that every aircraft has a stand: how much room one more thing takes by dimension, and how much there is.
+/// The rule that every aircraft has a stand: how much room one more thing takes by dimension, and
+/// how much there is.
 #[derive(Debug, Clone)]
 pub(super) struct Headroom {
     pub(super) takes: Vec<f64>,
@@ -65,8 +68,8 @@ impl Ceiling {
         least.map_or(0.0, |cut| cut.slopes[dimension])
     }
 
-    /// The ceiling with other slopes: `more` for each thing above its lowest number, and `constant` for all designs. It is
-    /// what is expected, and proves nothing.
+    /// The ceiling with other slopes: `more` for each thing above its lowest number, and `constant`
+    /// for all designs. It is what is expected, and proves nothing.
     pub(super) fn corrected(&self, more: &[f64], constant: f64) -> Self {
         let mut corrected = Self { cuts: Vec::new(), ..self.clone() };
         for cut in &self.cuts {
@@ -99,13 +102,14 @@ impl Ceiling {
         alone.min(together) + 1e-9 * self.scale
     }
 
-    /// What no design costs less than, whose value is at least `need`; `costs` are those of one thing by dimension. Infinite
-    /// if there is no such design.
+    /// What no design costs less than, whose value is at least `need`; `costs` are those of one
+    /// thing by dimension. Infinite if there is no such design.
     pub(super) fn least_cost(&self, costs: &[f64], need: f64) -> f64 {
         if self.most() < need {
             return f64::INFINITY;
         }
-        // A design costs at least its cost less what it passes the need by and the room that it leaves, at any prices of both.
+        // A design costs at least its cost less what it passes the need by and the room that it
+        // leaves, at any prices of both.
         let lowest = |prices: &[f64], of_room: f64| {
             let all: f64 = prices.iter().sum();
             let cut = if all > 0.0 { self.mean(prices) } else { self.nothing() };
@@ -159,7 +163,8 @@ impl Ceiling {
         problem.add_constraint(takes.collect::<Vec<_>>(), ComparisonOp::Le, self.room.there_is);
     }
 
-    /// The weights of the cuts and the price of room at which the highest value is lowest: the dual of the highest value.
+    /// The weights of the cuts and the price of room at which the highest value is lowest: the dual
+    /// of the highest value.
     fn weights_of_most(&self) -> Option<(Vec<f64>, f64)> {
         let mut problem = Problem::new(OptimizationDirection::Minimize);
         let add = |cut: &Cut| problem.add_var(cut.constant / self.scale, (0.0, 1.0));
@@ -184,7 +189,8 @@ impl Ceiling {
         Some((values(&solution, &weights)?, price))
     }
 
-    /// The prices, one for each cut and one for room, at which the need is dearest: the dual of the least cost.
+    /// The prices, one for each cut and one for room, at which the need is dearest: the dual of the
+    /// least cost.
     fn prices_of_need(&self, costs: &[f64], need: f64) -> Option<(Vec<f64>, f64)> {
         let dearest: f64 = costs.iter().zip(&self.most).map(|(cost, most)| cost * most).sum();
         if dearest <= 0.0 {

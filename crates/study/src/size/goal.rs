@@ -17,7 +17,8 @@ impl Goal {
     /// Reads `profit`, `served=SHARE`, `zero-spill`, which is `served=1`, or `least-spill`.
     ///
     /// # Errors
-    /// Returns [`Error::Asked`] for anything else, and for a share that is not above 0 and at most 1.
+    /// Returns [`Error::Asked`] for anything else, and for a share that is not above 0 and at
+    /// most 1.
     pub fn parse(text: &str) -> Result<Self, Error> {
         match text {
             "profit" => Ok(Self::MostProfit),

@@ -5,7 +5,8 @@ use vertifleet_picture::numbers::{counted, dollars, grouped, signed};
 use super::{Certificate, DesignSummary, SizeReport};
 use crate::statistics::Estimate;
 
-/// Says what was found, what it brings on days that the search has not seen, and how far from the best it can be.
+/// Says what was found, what it brings on days that the search has not seen, and how far from the
+/// best it can be.
 pub(super) fn text(report: &SizeReport) -> String {
     let parts = [better(report), found(report), again(report), certificate(report), doubts(report)];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")

@@ -1,4 +1,5 @@
-//! What is kept of every design as soon as it is known, so that a search that ends early goes on where it was.
+//! What is kept of every design as soon as it is known, so that a search that ends early goes on
+//! where it was.
 
 use serde::{Deserialize, Serialize};
 use vertifleet_core::OutputKind;
@@ -22,7 +23,8 @@ pub(super) const KIND: OutputKind = OutputKind {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Part {
-    /// How far each dimension is above its lowest number: for a bound how many things, else how many steps.
+    /// How far each dimension is above its lowest number: for a bound how many things, else how
+    /// many steps.
     pub(super) design: Design,
     /// What was found out.
     pub(super) found: Finding,

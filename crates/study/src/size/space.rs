@@ -1,4 +1,5 @@
-//! The designs that are searched: for each aircraft type, stand or charger that may vary, a range of numbers.
+//! The designs that are searched: for each aircraft type, stand or charger that may vary, a range
+//! of numbers.
 
 use serde_json::Value;
 use vertifleet_core::{Network, TypeIx, VertiportIx};
@@ -100,12 +101,12 @@ impl Counts {
 }
 
 impl Space {
-    /// Reads which members vary. A factor with one value is a setting of all designs. Without a factor that varies, the
-    /// goal says what does: up to twice the numbers of the file.
+    /// Reads which members vary. A factor with one value is a setting of all designs. Without a
+    /// factor that varies, the goal says what does: up to twice the numbers of the file.
     ///
     /// # Errors
-    /// Returns [`Error::Asked`] if something else than aircraft, stands or chargers varies or its numbers are not whole
-    /// and evenly spaced, and the errors of [`Network::changed`].
+    /// Returns [`Error::Asked`] if something else than aircraft, stands or chargers varies or its
+    /// numbers are not whole and evenly spaced, and the errors of [`Network::changed`].
     pub(super) fn new(network: &Network, factors: &[Factor], goal: Goal) -> Result<Self, Error> {
         let (settings, varied): (Vec<&Factor>, Vec<&Factor>) =
             factors.iter().partition(|factor| setting(factor).is_some());
@@ -163,7 +164,8 @@ impl Space {
         counts
     }
 
-    /// Whether a design has an aircraft, a stand for each, and a place more, without which none can ever fly.
+    /// Whether a design has an aircraft, a stand for each, and a place more, without which none can
+    /// ever fly.
     pub(super) fn is_possible(&self, design: &[u32]) -> bool {
         let counts = self.counts(design);
         let [aircraft, stands, places] = [
@@ -201,7 +203,8 @@ impl Space {
         }
     }
 
-    /// Whether no design is possible, because the smallest fleet is larger than all stands or the largest one is none.
+    /// Whether no design is possible, because the smallest fleet is larger than all stands or the
+    /// largest one is none.
     fn is_empty(&self) -> bool {
         let extreme = |most_aircraft: bool| -> Design {
             let steps =
@@ -349,8 +352,8 @@ fn dimension(network: &Network, path: String, value: &Value) -> Result<Dimension
     Ok(Dimension { path, what, low: now, step: 1, steps: 0, now })
 }
 
-/// What varies where nothing is said: chargers, or stands where there are none, and the fleet unless the goal is the spill
-/// of a given one.
+/// What varies where nothing is said: chargers, or stands where there are none, and the fleet
+/// unless the goal is the spill of a given one.
 fn default_dimensions(network: &Network, goal: Goal) -> Result<Vec<Dimension>, Error> {
     let mut dimensions = Vec::new();
     if goal != Goal::LeastSpill {

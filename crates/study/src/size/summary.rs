@@ -1,5 +1,5 @@
-//! The numbers of a search: the design that was found, how it compares with the network as it is, and how far it can be from
-//! the best.
+//! The numbers of a search: the design that was found, how it compares with the network as it is,
+//! and how far it can be from the best.
 
 use serde::Serialize;
 use vertifleet_sim::DayTotals;
@@ -93,7 +93,8 @@ pub struct DimensionSummary {
     pub now: u32,
     /// The number in the design that was found.
     pub found: u32,
-    /// What one more would add at most to what is wanted, after its cost: dollars a day or passengers a day.
+    /// What one more would add at most to what is wanted, after its cost: dollars a day or
+    /// passengers a day.
     pub one_more_is_worth_at_most: f64,
 }
 
@@ -112,12 +113,13 @@ pub struct DesignSummary {
     pub spilled_passengers: f64,
     /// Passengers carried as a share of those who wanted to fly; 1 if none did.
     pub served_share: f64,
-    /// What it can earn at most, dollars, or, where passengers count, carry at most, on the days of the search; whatever
-    /// decides.
+    /// What it can earn at most, dollars, or, where passengers count, carry at most, on the days of
+    /// the search; whatever decides.
     pub ceiling: f64,
 }
 
-/// How far the design that was found can be from the best of all, on the days of the search, under any policy.
+/// How far the design that was found can be from the best of all, on the days of the search, under
+/// any policy.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(tag = "of", rename_all = "snake_case")]
 pub enum Certificate {
@@ -227,8 +229,8 @@ impl SizeReport {
         &self.designs[self.now]
     }
 
-    /// What the design is called that is nearest to the network file: the network as it is, if the numbers that are searched
-    /// have it.
+    /// What the design is called that is nearest to the network file: the network as it is, if the
+    /// numbers that are searched have it.
     pub fn name_of_start(&self) -> &'static str {
         let here = &self.as_it_is().numbers;
         let is_it = self.dimensions.iter().zip(here).all(|(one, &number)| one.now == number);
@@ -250,7 +252,8 @@ impl SizeReport {
 const LEAST_WORTH: f64 = 0.05;
 
 impl DimensionSummary {
-    /// Whether what was found is the highest number that was searched, and one more might be better by anything that is shown.
+    /// Whether what was found is the highest number that was searched, and one more might be better
+    /// by anything that is shown.
     pub fn is_at_limit(&self) -> bool {
         self.found == self.highest && self.one_more_is_worth_at_most >= LEAST_WORTH
     }

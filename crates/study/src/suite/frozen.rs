@@ -16,8 +16,8 @@ pub(super) struct FrozenDay {
     pub(super) upper_bound_usd: f64,
 }
 
-/// Reads a table that is compiled into the program. Rows that are none are left out, so that a damaged table has too
-/// few days.
+/// Reads a table that is compiled into the program. Rows that are none are left out, so that a
+/// damaged table has too few days.
 pub(super) fn parse(table: &'static str) -> Vec<FrozenDay> {
     let row = |line: &'static str| {
         let mut cells = line.split(',');
@@ -39,8 +39,8 @@ pub(super) fn text<'a>(days: impl Iterator<Item = (&'a Scenario, f64)>) -> Strin
     text
 }
 
-/// The hash of everything that a day consists of: `SipHash` 2-4 with 128 bits and a key of zeros, of the text of its
-/// scenario file.
+/// The hash of everything that a day consists of: `SipHash` 2-4 with 128 bits and a key of zeros,
+/// of the text of its scenario file.
 pub(super) fn hash(day: &Scenario) -> String {
     let mut hasher = SipHasher24::new();
     hasher.write(day.to_json().as_bytes());

@@ -1,16 +1,19 @@
-//! Means by level where some combinations of levels are missing, so that plain means would compare unlike cells: a fleet for
-//! which there is a place only with many stands would owe its profit to the stands.
+//! Means by level where some combinations of levels are missing, so that plain means would compare
+//! unlike cells: a fleet for which there is a place only with many stands would owe its profit to
+//! the stands.
 //!
-//! Each number is taken for a sum of one effect for each factor, and the effects are those with the least squares of what
-//! is left (Searle, Speed and Milliken, "Population marginal means in the linear model", 1980). They are found by
-//! backfitting: one factor after another takes the mean of what the others leave.
+//! Each number is taken for a sum of one effect for each factor, and the effects are those with the
+//! least squares of what is left (Searle, Speed and Milliken, "Population marginal means in the
+//! linear model", 1980). They are found by backfitting: one factor after another takes the mean of
+//! what the others leave.
 
 /// Rounds after which the effects are taken as they are.
 const MOST_ROUNDS: usize = 500;
 /// Effects that move less than this share of the numbers have settled.
 const SETTLED: f64 = 1e-10;
 
-/// The mean of each level of each factor. `factors` has the positions of the numbers by factor and level.
+/// The mean of each level of each factor. `factors` has the positions of the numbers by factor and
+/// level.
 pub(super) fn plain_means(factors: &[Vec<Vec<usize>>], numbers: &[f64]) -> Vec<Vec<f64>> {
     factors.iter().map(|levels| means(levels, numbers)).collect()
 }

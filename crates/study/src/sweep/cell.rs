@@ -17,11 +17,12 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// The cells of a design. A cell whose fleet has no place has no network; any other change that the format refuses is an
-    /// error.
+    /// The cells of a design. A cell whose fleet has no place has no network; any other change that
+    /// the format refuses is an error.
     ///
     /// # Errors
-    /// Returns the errors of [`Design::cells`], those of [`Network::changed`], and [`Error::Asked`] if no cell has a network.
+    /// Returns the errors of [`Design::cells`], those of [`Network::changed`], and [`Error::Asked`]
+    /// if no cell has a network.
     pub fn all(base: &Network, factors: &[Factor], design: Design) -> Result<Vec<Self>, Error> {
         let settings = design.cells(factors)?;
         each_counts(base, factors)?;

@@ -4,7 +4,8 @@ use vertifleet_picture::numbers::{counted, dollars, grouped};
 
 use super::{CellSummary, SweepReport};
 
-/// Says which design earns most, which cheaper one earns nearly as much, and which factor matters most.
+/// Says which design earns most, which cheaper one earns nearly as much, and which factor matters
+/// most.
 pub(super) fn text(report: &SweepReport) -> String {
     let best = report.cell(report.best);
     let earns = |cell: &CellSummary| {

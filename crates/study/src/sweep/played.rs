@@ -1,4 +1,5 @@
-//! A sweep of comparisons that were played elsewhere, such as on the nodes of a cluster: the same tables, figures and page.
+//! A sweep of comparisons that were played elsewhere, such as on the nodes of a cluster: the same
+//! tables, figures and page.
 
 use serde_json::Value;
 use vertifleet_core::Network;
@@ -12,12 +13,14 @@ use crate::error::Error;
 use crate::record::ComparisonRecords;
 
 impl Sweep {
-    /// The sweep whose cells have these settings, by path, and the comparisons on their networks, where they have one; with
-    /// the records of the cells, from which [`records`](Self::records) makes the report.
+    /// The sweep whose cells have these settings, by path, and the comparisons on their networks,
+    /// where they have one; with the records of the cells, from which [`records`](Self::records)
+    /// makes the report.
     ///
     /// # Errors
-    /// Returns [`Error::Empty`] without a comparison, [`Error::PartsDiffer`] if the comparisons have not the same policies on the
-    /// same drawn days or one is missing, and the errors of [`Network::changed`].
+    /// Returns [`Error::Empty`] without a comparison, [`Error::PartsDiffer`] if the comparisons
+    /// have not the same policies on the same drawn days or one is missing, and the errors of
+    /// [`Network::changed`].
     pub fn of_comparisons(
         network: &Network,
         paths: &[String],

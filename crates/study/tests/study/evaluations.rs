@@ -1,4 +1,5 @@
-//! Suites are what was frozen, evaluations count as comparisons do, and a result that claims too much is found out.
+//! Suites are what was frozen, evaluations count as comparisons do, and a result that claims too
+//! much is found out.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -159,8 +160,8 @@ fn policies_that_cannot_play_a_suite_are_left_out() {
 proptest::proptest! {
     #![proptest_config(proptest::prelude::ProptestConfig::with_cases(24))]
 
-    /// Random damage to a good file leads to an error or to a verdict, never to a panic; and a verdict of validity only
-    /// where no claim has changed.
+    /// Random damage to a good file leads to an error or to a verdict, never to a panic; and a
+    /// verdict of validity only where no claim has changed.
     #[test]
     fn a_damaged_result_never_panics(at in 0.0..1.0_f64, byte: u8, cut: bool) {
         let good = serde_json::to_vec_pretty(&*HONEST).expect("plain data");

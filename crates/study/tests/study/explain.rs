@@ -1,4 +1,5 @@
-//! What an explanation says adds up to the day, and what a change is worth is the difference of two solved days.
+//! What an explanation says adds up to the day, and what a change is worth is the difference of two
+//! solved days.
 
 use std::sync::Arc;
 
@@ -95,7 +96,8 @@ fn a_worth_is_the_difference_of_two_days_that_were_solved() {
 
 #[test]
 fn no_change_is_worth_more_by_the_bound_than_it_can_be_nor_less() {
-    // San Francisco's stands, chargers and aircraft cost something; the aircraft of `disrupted` have outages.
+    // San Francisco's stands, chargers and aircraft cost something; the aircraft of `disrupted`
+    // have outages.
     for network in ["paper", "disrupted", "san-francisco", "random:7", "random-places:2:1"] {
         let day = day(network);
         let found = explained(network, &greedy());

@@ -160,8 +160,8 @@ impl Noise {
         ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// A sum of twelve uniform values minus six, which is close enough to normal and uses no function that differs by
-    /// platform.
+    /// A sum of twelve uniform values minus six, which is close enough to normal and uses no
+    /// function that differs by platform.
     fn next_normal(&mut self) -> f64 {
         (0..12).map(|_| self.next_uniform()).sum::<f64>() - 6.0
     }

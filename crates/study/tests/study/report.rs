@@ -97,7 +97,8 @@ fn where_nothing_can_be_earned_nothing_earned_is_all_of_it() {
     assert_eq!(share(90.0, None), None);
     assert_eq!(share(90.0, Some(100.0)), Some(0.9));
     assert_eq!((share(0.0, Some(0.0)), share(-5.0, Some(0.0))), (Some(1.0), Some(0.0)));
-    // If aircraft cost more a day than they can earn, results are measured by the least possible loss.
+    // If aircraft cost more a day than they can earn, results are measured by the least possible
+    // loss.
     assert_eq!((share(-80.0, Some(-80.0)), share(-100.0, Some(-80.0))), (Some(1.0), Some(0.8)));
 }
 

@@ -1,5 +1,5 @@
-//! What a search for a design promises: no design passes what it proves, a search that was interrupted ends with the same
-//! bytes, and the network file of the best design is that design.
+//! What a search for a design promises: no design passes what it proves, a search that was
+//! interrupted ends with the same bytes, and the network file of the best design is that design.
 
 use std::collections::BTreeMap;
 use std::fs;

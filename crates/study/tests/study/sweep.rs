@@ -1,5 +1,5 @@
-//! What a sweep promises: cells are the changed networks on the same days, and a sweep that was interrupted ends with the
-//! same bytes as one that was not.
+//! What a sweep promises: cells are the changed networks on the same days, and a sweep that was
+//! interrupted ends with the same bytes as one that was not.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -86,7 +86,8 @@ fn an_interrupted_sweep_ends_with_the_same_bytes() {
     let journal = &expected[JOURNAL];
     for kept in [0, 10, journal.len() / 3, journal.len() / 2, journal.len() - 1] {
         let folder = tempfile::tempdir().expect("a folder");
-        // A journal that ends within its first line is no journal, which begins the sweep anew only if it is empty.
+        // A journal that ends within its first line is no journal, which begins the sweep anew only
+        // if it is empty.
         let head = journal.iter().position(|&byte| byte == b'\n').expect("a line") + 1;
         let kept = if kept == 0 { 0 } else { kept.max(head) };
         fs::write(folder.path().join(JOURNAL), &journal[..kept]).expect("room");

@@ -1,16 +1,17 @@
-//! Which flights the passengers of a part of the market buy: those that leave them the most after they have paid.
+//! Which flights the passengers of a part of the market buy: those that leave them the most after
+//! they have paid.
 //!
-//! Where all flights of a cell have one price, that is a formula. Otherwise it is enumerated: the cheapest flights for every
-//! number of seats, and, where passengers wait, the best of every period by the number of those who were left behind in the
-//! one before.
+//! Where all flights of a cell have one price, that is a formula. Otherwise it is enumerated: the
+//! cheapest flights for every number of seats, and, where passengers wait, the best of every period
+//! by the number of those who were left behind in the one before.
 
 use super::{Bought, Market, Part, compact};
 
-/// The most passengers of a cell for whom flights of several sizes are enumerated. More fill so many flights that fractions
-/// of flights make little difference.
+/// The most passengers of a cell for whom flights of several sizes are enumerated. More fill so
+/// many flights that fractions of flights make little difference.
 pub(super) const MOST_ENUMERATED: u32 = 300;
-/// The same of two periods together where passengers wait, which takes time in proportion to the square. Enumerating the 80
-/// of `paper` made its bound 15 times as slow and 0.05 % tighter.
+/// The same of two periods together where passengers wait, which takes time in proportion to the
+/// square. Enumerating the 80 of `paper` made its bound 15 times as slow and 0.05 % tighter.
 pub(super) const MOST_WAITING: u32 = 60;
 /// The price of what cannot be bought. The sum of a few of them is in `i64`.
 const UNAFFORDABLE: i64 = i64::MAX / 8;
@@ -67,7 +68,8 @@ struct PeriodPlan {
 }
 
 impl Market {
-    /// The surplus of a block, if `one_more` passenger of a cell wants to fly, and the flights that are bought for it.
+    /// The surplus of a block, if `one_more` passenger of a cell wants to fly, and the flights that
+    /// are bought for it.
     pub(in crate::bound) fn buy(
         &self,
         block: usize,
@@ -82,7 +84,8 @@ impl Market {
         if self.has_one_price_a_cell() {
             return self.buy_alike(block, passengers[0], prices[block]);
         }
-        // One more passenger never changes the method, so that its worth is not a difference of two methods.
+        // One more passenger never changes the method, so that its worth is not a difference of two
+        // methods.
         let waiting = |period: usize| {
             let before = period.checked_sub(1).map_or(0, |before| self.passengers[cells[before]]);
             before.saturating_add(self.passengers[cells[period]])
@@ -123,8 +126,8 @@ impl Market {
         (alike.surplus(price), vec![(compact(cell), f64::from(full + last))])
     }
 
-    /// The best that passengers of a cell can do, by the number of those who have waited for it. `after` is the surplus of
-    /// later periods by the number who wait for the next.
+    /// The best that passengers of a cell can do, by the number of those who have waited for it.
+    /// `after` is the surplus of later periods by the number who wait for the next.
     fn best_by_waiting(
         &self,
         cell: usize,
@@ -197,8 +200,9 @@ impl Market {
         Offers { flights, cost }
     }
 
-    /// The surplus if every passenger may buy a seat for a fraction of the price of a flight, which is no less than that of
-    /// whole flights: a flight is divided among as many passengers as can board it.
+    /// The surplus if every passenger may buy a seat for a fraction of the price of a flight, which
+    /// is no less than that of whole flights: a flight is divided among as many passengers as can
+    /// board it.
     pub(super) fn buy_fractions(
         &self,
         cells: &[usize],

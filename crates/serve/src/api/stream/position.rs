@@ -3,8 +3,9 @@
 use crate::mark::EventMark;
 use crate::store::{Page, StoredEvent};
 
-/// The position of a reader that reads the log from the store until it has caught up, and then takes events as they are
-/// published. It subscribes before it reads, so it is published what it does not find in the store.
+/// The position of a reader that reads the log from the store until it has caught up, and then
+/// takes events as they are published. It subscribes before it reads, so it is published what it
+/// does not find in the store.
 #[derive(Debug)]
 pub(super) struct Position {
     /// The last event that was sent, or the one that the reader came with.
@@ -40,8 +41,8 @@ impl Position {
         self.after = page.events.last().map_or(self.after, StoredEvent::mark);
     }
 
-    /// An event was published. Returns whether it is sent: it may have been read from the store before, or follow on some that
-    /// have to be read first.
+    /// An event was published. Returns whether it is sent: it may have been read from the store
+    /// before, or follow on some that have to be read first.
     pub(super) fn take(&mut self, event: &StoredEvent) -> bool {
         let is_next = event.seq == self.after.seq + 1;
         if is_next {
@@ -81,7 +82,8 @@ mod tests {
             Self { fresh: publisher.subscribe(), position, sent: Vec::new() }
         }
 
-        /// Reads one event from the store or takes one that was published. Returns false if it has to wait.
+        /// Reads one event from the store or takes one that was published. Returns false if it has
+        /// to wait.
         fn step(&mut self, store: &[StoredEvent]) -> bool {
             if self.position.is_behind() {
                 let mut left = store.iter().filter(|one| one.seq > self.position.mark().seq);
@@ -104,8 +106,9 @@ mod tests {
         }
     }
 
-    /// Three events are stored, each before it is published, and two may be published in either order, because a service
-    /// publishes its own events and those that others have stored. Only `kept` of them are kept for a reader.
+    /// Three events are stored, each before it is published, and two may be published in either
+    /// order, because a service publishes its own events and those that others have stored. Only
+    /// `kept` of them are kept for a reader.
     fn play(kept: usize, choices: &mut Choices) {
         let (publisher, _) = tokio::sync::broadcast::channel(kept);
         let (mut store, mut unpublished) = (Vec::new(), Vec::new());

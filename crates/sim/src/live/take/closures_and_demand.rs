@@ -61,8 +61,8 @@ impl LiveDay {
         self.forget();
     }
 
-    /// Makes the day another one for policies that remember it, because what they remember no longer holds: they read
-    /// stands and known closures once a day.
+    /// Makes the day another one for policies that remember it, because what they remember no
+    /// longer holds: they read stands and known closures once a day.
     pub(super) fn forget(&mut self) {
         self.known.scenario = Arc::new(Scenario::clone(&self.known.scenario));
     }

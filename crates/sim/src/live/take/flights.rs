@@ -104,7 +104,8 @@ impl LiveDay {
         notice
     }
 
-    /// Corrects how many passengers a flight has on board. Those who had waited are on board before others.
+    /// Corrects how many passengers a flight has on board. Those who had waited are on board before
+    /// others.
     fn correct_passengers(&mut self, flight: usize, passengers: u16) {
         let LiveDecision { row, period, waited, .. } = self.decisions[flight];
         let pair = (row.from, row.to);
@@ -201,8 +202,8 @@ impl LiveDay {
         self.known.place[aircraft.at()] = at;
     }
 
-    /// Lets a flight end at another vertiport. It takes the energy of the flight there, or what it was to take if it came
-    /// back; everything else of its account stays.
+    /// Lets a flight end at another vertiport. It takes the energy of the flight there, or what it
+    /// was to take if it came back; everything else of its account stays.
     fn divert(&mut self, aircraft: AircraftIx, flight: usize, at: VertiportIx) {
         self.move_to(aircraft, at);
         let LiveDecision { row, .. } = self.decisions[flight];

@@ -1,19 +1,22 @@
 //! The search for the cheapest design that carries enough passengers.
 //!
-//! Of the designs that were played, one that carries too few and one that carries enough are the ends of an *edge*: what
-//! enough costs between the two is least. The edge's slope is what one more passenger costs here, at which all designs can
-//! be compared, those that carry too few too. Designs on the edge and around its ends are played.
+//! Of the designs that were played, one that carries too few and one that carries enough are the
+//! ends of an *edge*: what enough costs between the two is least. The edge's slope is what one more
+//! passenger costs here, at which all designs can be compared, those that carry too few too.
+//! Designs on the edge and around its ends are played.
 
 use super::{Design, IN_VAIN, MOST_BOUNDS, Search, Solver, Space, prediction_margin, rounded};
 use crate::error::Error;
 use crate::size::ceiling::Ceiling;
 
-/// A policy falls far short of the ceiling if it lacks this share of the passengers who must be carried.
+/// A policy falls far short of the ceiling if it lacks this share of the passengers who must be
+/// carried.
 const FAR_SHORT: f64 = 0.1;
 /// A design on an edge is worth playing if it is cheaper than the best by this share.
 const WORTH_CLOSING_IN: f64 = 0.01;
 
-/// Two designs between which enough is carried at the least cost, if the number of passengers rises evenly in between.
+/// Two designs between which enough is carried at the least cost, if the number of passengers rises
+/// evenly in between.
 struct Edge {
     /// The design that carries too few.
     lacking: Design,
@@ -28,8 +31,9 @@ struct Edge {
 }
 
 impl<S: Solver> Search<'_, S> {
-    /// Plays the cheapest designs by the ceiling, each time aiming higher by what the last one lacked. Where a policy falls
-    /// far short of the ceiling, that leads to odd designs. Then the largest is played, or the smallest if all carry enough.
+    /// Plays the cheapest designs by the ceiling, each time aiming higher by what the last one
+    /// lacked. Where a policy falls far short of the ceiling, that leads to odd designs. Then the
+    /// largest is played, or the smallest if all carry enough.
     pub(super) fn play_until_enough(&mut self, first: Design) -> Result<(), Error> {
         let (mut design, mut wanted) = (first, self.aim.need);
         while self.order.len() < self.budget {
@@ -114,14 +118,16 @@ impl<S: Solver> Search<'_, S> {
         (is_cheaper && !self.played.contains_key(&found)).then_some(found)
     }
 
-    /// The cheapest design of all that is predicted to carry enough, if it is new and cheaper than the best.
+    /// The cheapest design of all that is predicted to carry enough, if it is new and cheaper than
+    /// the best.
     fn leap_down(&self) -> Option<Design> {
         let found = self.cheapest(&self.expected(self.best()), self.space, self.aim.need);
         let is_cheaper = self.cost(&found) < self.cost(self.best());
         (is_cheaper && !self.played.contains_key(&found)).then_some(found)
     }
 
-    /// The design around the ends of an edge that is predicted to be best, if one is worth playing, with that end.
+    /// The design around the ends of an edge that is predicted to be best, if one is worth playing,
+    /// with that end.
     fn cheaper(&self, edge: &Edge, reach: u32) -> Option<(Design, Design)> {
         let saved = |from: &Design, to: &Design| {
             let more = self.predicted(from, to) - self.aim.need;
@@ -141,8 +147,8 @@ impl<S: Solver> Search<'_, S> {
             .map(|(_, from, to)| (from, to))
     }
 
-    /// Bounds designs until the cheapest one that might carry enough can do so by its own bound, and returns the cheapest
-    /// that may be played.
+    /// Bounds designs until the cheapest one that might carry enough can do so by its own bound,
+    /// and returns the cheapest that may be played.
     pub(super) fn bound_the_cheapest(&mut self) -> Result<Design, Error> {
         let mut trial = self.possible(&self.all_numbers, self.space.above(&self.space.start()));
         let mut bounded = Vec::new();
@@ -154,7 +160,8 @@ impl<S: Solver> Search<'_, S> {
         Ok(self.cheapest(&self.ceiling, self.space, self.aim.need))
     }
 
-    /// The cheapest possible design of a space at which a ceiling reaches `need`, or the largest design if none does.
+    /// The cheapest possible design of a space at which a ceiling reaches `need`, or the largest
+    /// design if none does.
     fn cheapest(&self, ceiling: &Ceiling, space: &Space, need: f64) -> Design {
         let steps = |above: Vec<f64>| -> Vec<f64> {
             above

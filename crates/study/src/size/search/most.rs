@@ -1,4 +1,5 @@
-//! The search for the design of the highest value: of the highest profit, or of the most passengers.
+//! The search for the design of the highest value: of the highest profit, or of the most
+//! passengers.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +10,8 @@ use crate::error::Error;
 const TIGHT: f64 = 0.005;
 
 impl<S: Solver> Search<'_, S> {
-    /// Bounds designs until the ceiling is hardly higher than the highest bound, and returns the design nearest to that.
+    /// Bounds designs until the ceiling is hardly higher than the highest bound, and returns the
+    /// design nearest to that.
     pub(super) fn bound_the_highest(&mut self) -> Result<Design, Error> {
         let mut bounded: BTreeMap<Design, f64> = BTreeMap::new();
         let mut trial = self.possible(&self.all_numbers, self.space.above(&self.space.start()));
@@ -24,7 +26,8 @@ impl<S: Solver> Search<'_, S> {
             if most - least <= TIGHT * most.abs() {
                 break;
             }
-            // Half of the way up is a design that is not too far away; if it is known, look farther up.
+            // Half of the way up is a design that is not too far away; if it is known, look farther
+            // up.
             let levels = [0.5, 0.8, 0.95].map(|share| least + share * (most - least));
             let trials = levels.iter().filter_map(|&level| self.ceiling.toward(&center, level));
             let trials = trials.map(|trial| self.possible(&self.all_numbers, rounded(&trial)));
@@ -57,7 +60,8 @@ impl<S: Solver> Search<'_, S> {
         Ok(())
     }
 
-    /// The design that is predicted to be best of all, if it is new and predicted to be better than the best so far.
+    /// The design that is predicted to be best of all, if it is new and predicted to be better than
+    /// the best so far.
     fn leap(&self, best: &Design) -> Option<Design> {
         let here = self.space.above(best);
         let expected = self.expected(best);
