@@ -1,5 +1,5 @@
-//! Networks that differ from another one in some members of its file, for questions such as "and with 12 more
-//! aircraft?".
+//! Networks that differ from another one in some members of its file, for questions such as "and
+//! with 12 more aircraft?".
 
 use serde::Serialize;
 use serde_json::Value;
@@ -7,21 +7,24 @@ use toml_edit::DocumentMut;
 use toml_edit::ser::ValueSerializer;
 
 use crate::edit::set;
+use crate::member_path::position;
 use crate::parse::shortened;
 use crate::{Error, Network, kept, member_path};
 
 impl Network {
-    /// Returns the network whose file differs from this one's in some members. A path names members from the outside
-    /// in, separated by dots; a name with a dot in it stands in double quotes. An entry of a list is named by its `id` (in the
-    /// fleet by its `type`) or by its position from 0, and `*` names all of them: `fleet.0.count`, `fleet.midnight.count`, `vertiports.V3.stands`, `vertiports.*.stands`.
-    /// Changes are made in order, so that later ones win. Where stands change, the changed file says with `start_stands` that
-    /// aircraft start as they do on this network; where fares change and passengers respond, it says with `market.reference`
-    /// that the demand is the one at this network's fares. Everything else stays as it was written, comments too. The changed
-    /// file has to obey the format like any other.
+    /// Returns the network whose file differs from this one's in some members. A path names members
+    /// from the outside in, separated by dots; a name with a dot in it stands in double quotes. An
+    /// entry of a list is named by its `id` (in the fleet by its `type`) or by its position from 0,
+    /// and `*` names all of them: `fleet.0.count`, `fleet.midnight.count`, `vertiports.V3.stands`,
+    /// `vertiports.*.stands`. Changes are made in order, so that later ones win. Where stands
+    /// change, the changed file says with `start_stands` that aircraft start as they do on this
+    /// network; where fares change and passengers respond, it says with `market.reference` that the
+    /// demand is the one at this network's fares. Everything else stays as it was written, comments
+    /// too. The changed file has to obey the format like any other.
     ///
     /// # Errors
-    /// [`Error::NoSuchMember`] if a path leads nowhere, [`Error::NotParsed`] if a value has no form in TOML, and the
-    /// errors of [`from_toml`](Self::from_toml).
+    /// [`Error::NoSuchMember`] if a path leads nowhere, [`Error::NotParsed`] if a value has no form
+    /// in TOML, and the errors of [`from_toml`](Self::from_toml).
     pub fn changed<'a>(
         &self,
         changes: impl IntoIterator<Item = (&'a String, &'a Value)>,
@@ -47,8 +50,9 @@ impl Network {
         Self::from_toml(&file.to_string(), &origin)
     }
 
-    /// The members of the network's file that a path names, as [`changed`](Self::changed) reads it, each with a path that
-    /// names it alone: `fleet.*.count` gives `fleet.midnight.count` and the others.
+    /// The members of the network's file that a path names, as [`changed`](Self::changed) reads it,
+    /// each with a path that names it alone: `fleet.*.count` gives `fleet.midnight.count` and the
+    /// others.
     ///
     /// # Errors
     /// [`Error::NoSuchMember`] if the path leads nowhere.
@@ -66,8 +70,8 @@ impl Network {
     }
 }
 
-/// Finds the members that a path leads to. `passed` are the parts of the path before. The error is the part that leads
-/// nowhere.
+/// Finds the members that a path leads to. `passed` are the parts of the path before. The error is
+/// the part that leads nowhere.
 fn find(
     at: &toml::Value,
     path: &[&str],
@@ -110,16 +114,6 @@ fn own_name(entries: &[toml::Value], at: usize) -> String {
 /// The id of an entry, or, in the fleet, its type.
 fn name_of(entry: &toml::Value) -> Option<&str> {
     entry.get("id").or_else(|| entry.get("type")).and_then(toml::Value::as_str)
-}
-
-/// The position of the entry whose id (or, in the fleet, type) is `part`, or else the position that `part` is.
-pub(crate) fn position<'a>(
-    mut names: impl ExactSizeIterator<Item = Option<&'a str>>,
-    part: &str,
-) -> Option<usize> {
-    let length = names.len();
-    let counted = || part.parse().ok().filter(|&position| position < length);
-    names.position(|name| name == Some(part)).or_else(counted)
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
-//! The models of how many passengers want to fly from i to j in a period. A network file chooses one of them.
+//! The models of how many passengers want to fly from i to j in a period. A network file chooses
+//! one of them.
 //!
-//! They are Eq. 1 (`demand_model/equation_1.rs`), a day's total spread over the periods (`demand_model/daily.rs`),
-//! means of each pair and period (`demand_model/hourly.rs`), and uniform draws (`demand_model/uniform.rs`). Eq. 1
-//! rounds its draws, as the paper does, which moves the mean where demand is thin. The draws of the other models keep
-//! the mean that the file asks for.
+//! They are Eq. 1 (`demand_model/equation_1.rs`), a day's total spread over the periods
+//! (`demand_model/daily.rs`), means of each pair and period (`demand_model/hourly.rs`), and uniform
+//! draws (`demand_model/uniform.rs`). Eq. 1 rounds its draws, as the paper does, which moves the
+//! mean where demand is thin. The draws of the other models keep the mean that the file asks for.
 
 mod daily;
 mod distribution;
@@ -16,10 +17,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use crate::limits::entries;
+use crate::random::to_whole;
 use crate::{Error, Matrix, Time, VertiportIx, check};
 
 pub(crate) use daily::RawDailyDemand;
-pub(crate) use draws::rounded_by_chance;
 pub(crate) use equation_1::RawEquation1;
 pub(crate) use hourly::RawHourlyDemand;
 pub(crate) use uniform::RawUniformDemand;
@@ -37,7 +38,8 @@ pub(crate) struct DemandModel {
     /// Start of each period.
     pub(crate) periods: Vec<Time>,
     kind: Kind,
-    /// What the market makes of the demand: a factor for each pair in each period. `None` where all are 1.
+    /// What the market makes of the demand: a factor for each pair in each period. `None` where all
+    /// are 1.
     pub(crate) factors: Option<Vec<Matrix<f64>>>,
 }
 
@@ -83,7 +85,8 @@ impl DemandModel {
         (0..self.periods.len()).map(|period| self.means(period, vertiports)).collect()
     }
 
-    /// Mean passengers of every pair in a period at the reference fares, averaged over the day's periods.
+    /// Mean passengers of every pair in a period at the reference fares, averaged over the day's
+    /// periods.
     pub(crate) fn reference_day_means(&self, vertiports: usize) -> Matrix<f64> {
         let periods = self.periods.len();
         Matrix::from_fn(vertiports, |from, to| {
@@ -116,18 +119,8 @@ impl Level {
     }
 }
 
-/// The nearest whole number, not below 0.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "not negative, and means and sds are bounded"
-)]
-pub(crate) fn to_whole(drawn: f64) -> u32 {
-    drawn.round().max(0.0) as u32
-}
-
-/// Refuses an empty list of periods, too many periods, and too many cells of demand. The order of the periods is
-/// checked with each day.
+/// Refuses an empty list of periods, too many periods, and too many cells of demand. The order of
+/// the periods is checked with each day.
 fn check_periods(
     periods: &[Time],
     member: &str,

@@ -1,8 +1,9 @@
-//! A table of demand beside a network file: CSV with the columns period, from, to and passengers, as a spreadsheet
-//! writes it.
+//! A table of demand beside a network file: CSV with the columns period, from, to and passengers,
+//! as a spreadsheet writes it.
 //!
-//! A network keeps everything it says in its own text, so that a copy of the text draws the same days elsewhere. The
-//! rows of the table therefore replace the member that names it, and no later code knows of the table.
+//! A network keeps everything it says in its own text, so that a copy of the text draws the same
+//! days elsewhere. The rows of the table therefore replace the member that names it, and no later
+//! code knows of the table.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -12,12 +13,13 @@ use csv::ByteRecord;
 
 use crate::demand_model::RawHourlyDemand;
 use crate::parse::{shortened, without_mark};
+use crate::paths::origin;
 use crate::{Error, Time, files, limits};
 
 const COLUMNS: [&str; 4] = ["period", "from", "to", "passengers"];
 
-/// Returns the text of a network file with the rows of the file `table` put into it; `raw` is the hourly demand in that
-/// text, and `vertiports` are the ids of its vertiports.
+/// Returns the text of a network file with the rows of the file `table` put into it; `raw` is the
+/// hourly demand in that text, and `vertiports` are the ids of its vertiports.
 pub(crate) fn inlined(
     text: &str,
     raw: &RawHourlyDemand,
@@ -27,7 +29,7 @@ pub(crate) fn inlined(
     let csv = files::read_at_most(table, files::LONGEST_TABLE)?;
     let reader = Reader {
         csv: without_mark(&csv),
-        origin: files::origin(table),
+        origin: origin(table),
         periods: raw.periods.iter().copied().zip(0..).collect(),
         vertiports: vertiports.iter().map(|id| id.as_bytes()).zip(0..).collect(),
     };
@@ -48,7 +50,8 @@ struct Pair {
     passengers: Vec<f64>,
 }
 
-/// A pair as it stands in a network file. Whole numbers are written without a fraction, which keeps the text short.
+/// A pair as it stands in a network file. Whole numbers are written without a fraction, which keeps
+/// the text short.
 #[expect(clippy::cast_possible_truncation, reason = "within bounds, and only whole numbers")]
 fn pair_value(pair: &Pair, vertiports: &[&str]) -> toml::Value {
     let number = |&mean: &f64| {
@@ -111,8 +114,8 @@ impl Reader<'_> {
         Ok(pairs)
     }
 
-    /// The line of the record that begins at a byte. It is counted anew, because the parser's own count lags behind
-    /// where the parser skips empty lines or the second half of a CR LF.
+    /// The line of the record that begins at a byte. It is counted anew, because the parser's own
+    /// count lags behind where the parser skips empty lines or the second half of a CR LF.
     fn line(&self, begin: usize) -> usize {
         let mut begin = begin.min(self.csv.len());
         begin += self.csv[begin..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n')).count();

@@ -1,12 +1,12 @@
 //! How the disturbances of a network's days are distributed, and how one day's are drawn.
 
-use rand::{Rng, RngExt};
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use serde::Deserialize;
 
-use crate::demand_model::{rounded_by_chance, to_whole};
 use crate::limits::{self, Limits};
+use crate::random::{rounded_by_chance, to_whole, uniform};
 use crate::raw::{Positions, each};
 use crate::raw_disturbances::RawRoute;
 use crate::{
@@ -35,7 +35,8 @@ impl DisturbanceModel {
 pub(crate) struct ForecastError {
     /// Standard deviation of a pair's demand in a period, as a share of its forecast.
     noise: f64,
-    /// Probability that demand from a vertiport surges in a period, and by which factor it then exceeds the forecast.
+    /// Probability that demand from a vertiport surges in a period, and by which factor it then
+    /// exceeds the forecast.
     surge_probability: f64,
     surge_factor: f64,
 }
@@ -55,8 +56,9 @@ impl ForecastError {
                 for to in VertiportIx::all(table.size()) {
                     let deviation: f64 = StandardNormal.sample(random);
                     let mut expected = f64::from(table[(from, to)]) * factor;
-                    // Rounding to the nearest goes up as often as down if the centre is a whole number, and so keeps
-                    // the mean. A surge of few passengers may not be a whole number.
+                    // Rounding to the nearest goes up as often as down if the centre is a whole
+                    // number, and so keeps the mean. A surge of few passengers may not be a whole
+                    // number.
                     if expected.fract() != 0.0 {
                         expected = f64::from(rounded_by_chance(expected, random));
                     }
@@ -92,8 +94,8 @@ impl DelayModel {
             self.late
                 .iter()
                 .map(|late| {
-                    // Both draws are always made, so that one vertiport's settings do not change the delays of the
-                    // others.
+                    // Both draws are always made, so that one vertiport's settings do not change
+                    // the delays of the others.
                     let (chance, size) = (uniform(random), uniform(random));
                     late.map_or(0, |late| late.delay_s(chance, size))
                 })
@@ -102,15 +104,16 @@ impl DelayModel {
         TakeoffDelays { slot_s: self.slot_s, delay_s: (0..slots).map(|_| slot()).collect() }
     }
 
-    /// For each vertiport the probability of each whole number of seconds, from 0 on. The delays of slots are
-    /// independent.
+    /// For each vertiport the probability of each whole number of seconds, from 0 on. The delays of
+    /// slots are independent.
     pub(crate) fn probabilities(&self) -> Vec<Vec<f64>> {
         self.late.iter().map(|late| late.map_or(vec![1.0], Late::probabilities)).collect()
     }
 }
 
 impl Late {
-    /// The probability of each whole number of seconds, as [`delay_s`](Self::delay_s) draws and rounds them.
+    /// The probability of each whole number of seconds, as [`delay_s`](Self::delay_s) draws and
+    /// rounds them.
     fn probabilities(self) -> Vec<f64> {
         let most_s = if self.mean_s > 0.0 { to_whole(self.most_s) } else { 0 };
         // The probability of a delay that is rounded to no less than so many seconds.
@@ -183,11 +186,6 @@ impl OutageModel {
         };
         AircraftIx::all(fleet).filter_map(outage).collect()
     }
-}
-
-/// A uniform draw from [0, 1) with 53 random bits.
-pub(crate) fn uniform(random: &mut ChaCha8Rng) -> f64 {
-    (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// An instant drawn uniformly from the seconds of operations.

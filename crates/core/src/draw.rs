@@ -1,16 +1,17 @@
 //! Draws one day of a network from a seed: demand, start positions (§V.A) and disturbances.
 //!
-//! Demand, start positions and each kind of disturbance have a random stream of their own, so that a change in how one
-//! of them is drawn leaves the others as they were. The generator and the normal distribution are plain arithmetic, the
-//! same on every machine, and counts are rounded.
+//! Demand, start positions and each kind of disturbance have a random stream of their own, so that
+//! a change in how one of them is drawn leaves the others as they were. The generator and the
+//! normal distribution are plain arithmetic, the same on every machine, and counts are rounded.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::demand_model::rounded_by_chance;
+use crate::random::rounded_by_chance;
 use crate::{Day, DaySeed, Matrix, Network, Scenario, VertiportIx};
 
-/// The random streams of a day. Their numbers are part of what a seed means, so they must not change.
+/// The random streams of a day. Their numbers are part of what a seed means, so they must not
+/// change.
 #[derive(Debug, Clone, Copy)]
 enum Stream {
     Demand = 1,
@@ -34,12 +35,14 @@ impl Stream {
 }
 
 impl Network {
-    /// Draws the day of this seed, called `{network}-{seed}`. The same seed always gives the same day.
+    /// Draws the day of this seed, called `{network}-{seed}`. The same seed always gives the same
+    /// day.
     ///
-    /// Aircraft start as if the vertiports had the stands that `start_stands` of the file names, as far as there are stands
-    /// for them; the others find a place by chance. A network that was [changed](Self::changed) keeps those of its base, so
-    /// that the days of both are comparable (common random numbers): one more stand moves no aircraft, one less moves only those
-    /// who stood there, and further aircraft leave the first ones where they were.
+    /// Aircraft start as if the vertiports had the stands that `start_stands` of the file names, as
+    /// far as there are stands for them; the others find a place by chance. A network that was
+    /// [changed](Self::changed) keeps those of its base, so that the days of both are comparable
+    /// (common random numbers): one more stand moves no aircraft, one less moves only those who
+    /// stood there, and further aircraft leave the first ones where they were.
     pub fn draw(&self, seed: DaySeed) -> Scenario {
         let mut day = self.idle_day.clone().into_day();
         day.name = format!("{}-{seed}", self.name);
@@ -56,12 +59,13 @@ impl Network {
         for demand in day.disturbances.forecast.iter_mut().chain([&mut day.demand]) {
             self.apply_elasticity(demand, &mut Stream::Market.of(seed));
         }
-        // Demand is within bounds for every network that was accepted, and start positions respect the stands.
+        // Demand is within bounds for every network that was accepted, and start positions respect
+        // the stands.
         Scenario::checked(day)
     }
 
-    /// Whether this network draws exactly this day from the day's seed. It does not if it was changed since the day was
-    /// drawn, even if it still has the same name.
+    /// Whether this network draws exactly this day from the day's seed. It does not if it was
+    /// changed since the day was drawn, even if it still has the same name.
     pub fn draws(&self, day: &Scenario) -> bool {
         self.draw(DaySeed::of(day)) == *day
     }
@@ -77,9 +81,9 @@ impl Network {
         }
     }
 
-    /// Applies the market's factors to what was drawn at the reference fares. Where this does not give whole passengers, one
-    /// of the two neighbouring numbers is taken by chance. The draws are the same at all fares, so that a higher fare never
-    /// gives more passengers on the same day.
+    /// Applies the market's factors to what was drawn at the reference fares. Where this does not
+    /// give whole passengers, one of the two neighbouring numbers is taken by chance. The draws are
+    /// the same at all fares, so that a higher fare never gives more passengers on the same day.
     fn apply_elasticity(&self, demand: &mut [Matrix<u32>], random: &mut ChaCha8Rng) {
         let Some(factors) = &self.demand.factors else { return };
         for (table, factors) in demand.iter_mut().zip(factors) {
@@ -89,8 +93,8 @@ impl Network {
         }
     }
 
-    /// Draws the disturbances. Demand and start positions have been drawn before and stay as they would be without
-    /// disturbances; the demand that was drawn becomes the forecast.
+    /// Draws the disturbances. Demand and start positions have been drawn before and stay as they
+    /// would be without disturbances; the demand that was drawn becomes the forecast.
     fn draw_disturbances(&self, day: &mut Day, seed: DaySeed) {
         let model = &self.disturbances;
         if let Some(error) = &model.forecast_error {
@@ -114,7 +118,8 @@ impl Network {
     }
 }
 
-/// Where `aircraft` aircraft start: where they would if the vertiports had `start_stands`, as far as there are stands.
+/// Where `aircraft` aircraft start: where they would if the vertiports had `start_stands`, as far
+/// as there are stands.
 fn start_positions(
     start_stands: &[u16],
     mut left: Vec<u16>,
@@ -151,7 +156,8 @@ impl StartPositions {
         Self { free: all.filter(|&(_, stands)| stands > 0).collect() }
     }
 
-    /// Takes a stand at a vertiport chosen uniformly among those that have one left; `None` if none has.
+    /// Takes a stand at a vertiport chosen uniformly among those that have one left; `None` if none
+    /// has.
     fn next(&mut self, random: &mut ChaCha8Rng) -> Option<VertiportIx> {
         if self.free.is_empty() {
             return None;

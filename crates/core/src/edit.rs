@@ -1,15 +1,16 @@
-//! Sets members of a TOML document by path and leaves everything else, comments too, as it was written.
+//! Sets members of a TOML document by path and leaves everything else, comments too, as it was
+//! written.
 
 use toml_edit::{Array, ArrayOfTables, InlineTable, Item, Table, TableLike, Value};
 
-use crate::change::position;
+use crate::member_path::position;
 
 /// Sets the members that a path leads to. The error is the part of the path that leads nowhere.
 pub(crate) fn set(members: &mut dyn TableLike, path: &[&str], value: &Value) -> Result<(), String> {
     let [part, rest @ ..] = path else { return Ok(()) };
     if rest.is_empty() {
-        // The file may lack a member that the format allows, so a missing one is inserted. Reading the result refuses
-        // the others.
+        // The file may lack a member that the format allows, so a missing one is inserted. Reading
+        // the result refuses the others.
         match members.get_mut(part) {
             Some(Item::Value(member)) => replace(member, value),
             Some(member) => *member = Item::Value(value.clone()),

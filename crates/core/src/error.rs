@@ -1,20 +1,24 @@
-//! Expected errors of reading, checking, writing and drawing: what is wrong in the user's files, and what to do.
+//! Expected errors of reading, checking, writing and drawing: what is wrong in the user's files,
+//! and what to do.
 //!
-//! Messages are lower-case fragments that name file, member, value and rule. `docs/src/reference/errors.md` is written
-//! from the comments here, which give the cause first and then the fix.
+//! Messages are lower-case fragments that name file, member, value and rule.
+//! `docs/src/reference/errors.md` is written from the comments here, which give the cause first and
+//! then the fix.
+
+mod codes;
 
 use std::io;
 
-use crate::code::{Coded, Exit};
-use crate::limits::SEED_LIMIT;
+use crate::FileKind;
 use crate::output_error::OutputError;
-use crate::{Code, FileKind};
 
 /// An error in a file, a network, a scenario or a seed.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// V101. The operating system does not let the file be read: it does not exist, is a folder, or belongs to
-    /// another user. Fix: correct the path or the file's permissions.
+    /// V101 file cannot be read. The operating system does not let the file be read: it does not
+    /// exist, is a folder, or belongs to another user.
+    ///
+    /// Fix: correct the path or the file's permissions.
     #[error("{origin}: cannot be read: {cause}")]
     CannotRead {
         /// The path.
@@ -23,8 +27,12 @@ pub enum Error {
         cause: io::Error,
     },
 
-    /// V102. The operating system does not let the file be written. Fix: create the folder, free some space, or
-    /// choose a path that may be written. What was there before is still there.
+    /// V102 file cannot be written. The operating system does not let the file be written: the
+    /// folder does not exist, is not yours, or is full. What was there before is still there. A
+    /// report replaces its whole folder. So this folder can be neither the one that the program
+    /// runs in nor a mount point.
+    ///
+    /// Fix: create the folder, free some space, or choose a path that may be written.
     #[error("{origin}: cannot be written: {cause}")]
     CannotWrite {
         /// The path.
@@ -33,9 +41,11 @@ pub enum Error {
         cause: io::Error,
     },
 
-    /// V103. The file is longer than any file of its kind has reason to be (64 MiB for a scenario, 32 MiB for a
-    /// network, 16 MiB for a table of demand). Fix: check that it is the right file; describe fewer or longer demand
-    /// periods.
+    /// V103 file too large. The file is longer than files of its kind may be: 64 MiB for a
+    /// scenario, 256 MiB for a trace, 32 MiB for a network, 16 MiB for a table of demand; the
+    /// message states the limit.
+    ///
+    /// Fix: check that it is the right file. Describe fewer or longer demand periods.
     #[error("{origin}: the file is longer than {limit} bytes")]
     FileTooLarge {
         /// The path.
@@ -44,8 +54,11 @@ pub enum Error {
         limit: u64,
     },
 
-    /// V104. A number is negative, not finite, not whole where it counts something, or outside the bounds that the
-    /// message states. Fix: correct the member that the message names.
+    /// V104 number out of range. A number is negative, not finite, not whole where it counts
+    /// something, or outside the bounds that the message states.
+    ///
+    /// Fix: correct the member that the message names. The bounds are listed with [the scenario
+    /// file](files.md#the-scenario-file).
     #[error("{origin}: {member} must be {rule}, found {found}")]
     OutOfRange {
         /// The file.
@@ -60,8 +73,10 @@ pub enum Error {
         hint: Option<&'static str>,
     },
 
-    /// V105. The text is not JSON (a scenario) or TOML (a network). Fix: look at the line and column in the message,
-    /// often a comma or a quote is missing just before.
+    /// V105 not JSON or TOML. The text is not JSON (a scenario) or TOML (a network).
+    ///
+    /// Fix: look at the line and column in the message; often a comma or a quote is missing just
+    /// before.
     #[error("{origin}: line {line}, column {column}: {problem}")]
     NotParsed {
         /// The file.
@@ -74,8 +89,10 @@ pub enum Error {
         problem: String,
     },
 
-    /// V106. A member is unknown, missing, given twice, or of another kind than its format asks for (a text for a
-    /// number, a time that is not `HH:MM:SS`). Fix: compare the member that the message names with the format's page.
+    /// V106 unknown, missing or wrong member. A member is unknown, missing, given twice, or of
+    /// another kind than its format asks for: a text for a number, a time that is not `HH:MM:SS`.
+    ///
+    /// Fix: compare the member that the message names with [the format](files.md).
     #[error("{origin}: line {line}, column {column}: {member}{problem}")]
     WrongMember {
         /// The file.
@@ -90,8 +107,11 @@ pub enum Error {
         problem: String,
     },
 
-    /// V107. The file says that it has another format or version than this program reads. Fix: give the right file,
-    /// or write it again with this version of the program.
+    /// V107 unknown format. The file names another format or version than this program reads, or
+    /// names none. Then it is probably a file of another kind, such as a settings file of another
+    /// program in a folder of days.
+    ///
+    /// Fix: give the right file, or write it again with this version of the program.
     #[error("{origin}: format must be {expected:?}, found {found:?}")]
     UnknownFormat {
         /// The file.
@@ -102,7 +122,8 @@ pub enum Error {
         found: String,
     },
 
-    /// V107. The file does not say which format it has, so it is probably something else. Fix: give the right file.
+    /// The file does not say which format it has, so it is probably something else. Fix: give
+    /// the right file.
     #[error("{origin}: has no member `format`, which would be {expected:?}")]
     NoFormat {
         /// The file.
@@ -111,7 +132,11 @@ pub enum Error {
         expected: &'static str,
     },
 
-    /// V108. A list is empty or has more entries than this program takes. Fix: add or remove entries.
+    /// V108 empty or endless list. A list is empty or has more entries than the program takes, or
+    /// an entry of `[[closures]]` names neither routes nor vertiports. The message says how many
+    /// entries the list may have. A closed vertiport counts as a route to every other vertiport.
+    ///
+    /// Fix: add or remove entries.
     #[error("{origin}: {member} must have 1 to {most} entries, found {found}")]
     EntryCount {
         /// The file.
@@ -124,8 +149,10 @@ pub enum Error {
         found: usize,
     },
 
-    /// V109. A table does not have one row and one column for each vertiport, or a list does not have one entry for
-    /// each demand period. Fix: add or remove entries in the member that the message names.
+    /// V109 wrong shape. A table does not have one row and one column for each vertiport, or a list
+    /// does not have one entry for each demand period.
+    ///
+    /// Fix: add or remove entries in the member that the message names.
     #[error("{origin}: {member} must have {expected}, found {found}")]
     WrongShape {
         /// The file.
@@ -138,7 +165,9 @@ pub enum Error {
         found: usize,
     },
 
-    /// V110. Two entries of one list have the same id. Fix: rename one of them.
+    /// V110 duplicate id. Two entries of one list have the same id.
+    ///
+    /// Fix: rename one of them.
     #[error("{origin}: {member} has the same id as an entry before it")]
     DuplicateId {
         /// The file.
@@ -147,7 +176,10 @@ pub enum Error {
         member: String,
     },
 
-    /// V111. A member refers to an entry that does not exist. Fix: correct the id, or add the entry.
+    /// V111 unknown id. A member refers to an entry that does not exist. Ids are compared letter by
+    /// letter, and upper and lower case differ.
+    ///
+    /// Fix: correct the id, or add the entry.
     #[error("{origin}: {member} names {found:?}, which is not among the {list}")]
     UnknownId {
         /// The file.
@@ -160,7 +192,9 @@ pub enum Error {
         list: &'static str,
     },
 
-    /// V112. An id or name is empty, too long, or has characters that cannot be printed or used in a file's name.
+    /// V112 bad id. An id or name is empty, too long, or has characters that cannot be printed or
+    /// used in a file's name.
+    ///
     /// Fix: choose a short plain name.
     #[error("{origin}: {member} must be {rule}, found {found:?}")]
     BadId {
@@ -174,8 +208,10 @@ pub enum Error {
         found: String,
     },
 
-    /// V113. More aircraft start the day at a vertiport than it has stands. Fix: move aircraft elsewhere, or add
-    /// stands.
+    /// V113 more aircraft than stands at a vertiport. More aircraft start the day at a vertiport
+    /// than it has stands.
+    ///
+    /// Fix: move aircraft elsewhere, or add stands.
     #[error(
         "{origin}: vertiport {vertiport:?} has stands for {stands} aircraft, and {aircraft} start there"
     )]
@@ -190,8 +226,11 @@ pub enum Error {
         aircraft: usize,
     },
 
-    /// V114. Operations, a closure or an outage start after they end. Fix: exchange the two; an end after midnight is
-    /// written `25:30:00`.
+    /// V114 start after end. Operations, a closure or an outage start after they end.
+    ///
+    /// Fix: exchange the two. An end after midnight is written like `25:30:00`. A night curfew that
+    /// affects both the morning and the evening of the day is written as two closures, one until
+    /// the morning and one from the evening on.
     #[error("{origin}: {member}: start must not be after end {end}, found {start}")]
     StartAfterEnd {
         /// The file.
@@ -204,8 +243,11 @@ pub enum Error {
         end: String,
     },
 
-    /// V115. A demand period starts no later than the one before it, or the first one starts after operations do.
-    /// Fix: list the periods in the order of the day, the first no later than the start of operations.
+    /// V115 demand periods out of order. A demand period starts no later than the one before it, or
+    /// the first one starts after operations do.
+    ///
+    /// Fix: list the periods in the order of the day, the first no later than the start of
+    /// operations.
     #[error("{origin}: {member} must be {rule}, found {found}")]
     PeriodOrder {
         /// The file.
@@ -218,7 +260,9 @@ pub enum Error {
         found: String,
     },
 
-    /// V116. Passengers want to fly from a vertiport to itself. Fix: set the diagonal of the demand tables to 0.
+    /// V116 demand from a vertiport to itself. Passengers want to fly from a vertiport to itself.
+    ///
+    /// Fix: set the diagonal of the demand tables to 0.
     #[error(
         "{origin}: {member} must be 0, found {found}: no flight goes from a vertiport to itself"
     )]
@@ -231,8 +275,11 @@ pub enum Error {
         found: u32,
     },
 
-    /// V117. A network has more aircraft than all its stands together, so that no day of it can be drawn. Fix: add
-    /// stands or vertiports, or remove aircraft.
+    /// V117 fleet larger than all stands. A network has more aircraft than all its stands together,
+    /// so that no day of it can be drawn.
+    ///
+    /// Fix: add stands or vertiports, or remove aircraft; `network import` takes fewer than its
+    /// base has with `--aircraft`.
     #[error(
         "{origin}: the fleet has {aircraft} aircraft, and the vertiports have {stands} stands together"
     )]
@@ -245,8 +292,12 @@ pub enum Error {
         stands: usize,
     },
 
-    /// V118. A seed, or the number of a day of training or validation, is outside the range that keeps the days of
-    /// different purposes apart. Fix: choose a smaller one.
+    /// V118 seed out of range. A seed, or the number of a training or validation day, is outside
+    /// [the range](../concepts/training.md#seeds) that keeps the days of different purposes apart.
+    /// `--seed` of `scenario` and `compare` goes up to 2^40 - 1, counting all days asked for; that
+    /// of `train` up to 2^24 - 1.
+    ///
+    /// Fix: choose a smaller seed.
     #[error("{member} must be a whole number below {limit}, found {found}")]
     SeedOutOfRange {
         /// The name of the number, with its file if it has one.
@@ -257,8 +308,12 @@ pub enum Error {
         found: String,
     },
 
-    /// V121. A file has several of the members of which it must have exactly one, or none of them. Fix: keep the one
-    /// you mean.
+    /// V121 not exactly one of several members. A file must have exactly one of several members,
+    /// but has two or none of them: for example a vertiport's position in miles and by latitude and
+    /// longitude, or two demand models.
+    ///
+    /// Fix: keep the member that is meant. The positions of all vertiports of a network are given
+    /// in the same way.
     #[error("{origin}: {member} must have {choices}, found {found}")]
     NotOneOf {
         /// The file.
@@ -271,7 +326,10 @@ pub enum Error {
         found: usize,
     },
 
-    /// V122. A route leads from a vertiport to itself. Fix: name two vertiports.
+    /// V122 route from a vertiport to itself. A corridor or a closure has the same vertiport at
+    /// both ends.
+    ///
+    /// Fix: name two different vertiports.
     #[error("{origin}: {member} leads from {vertiport:?} to itself")]
     RouteToItself {
         /// The file.
@@ -282,8 +340,12 @@ pub enum Error {
         vertiport: String,
     },
 
-    /// V123. A change of a network names a member by a path that leads nowhere. Fix: name members as they stand in the
-    /// network file, and the entries of a list by their `id` or their position from 0.
+    /// V123 change of a member that is not there. A change of a network names a member by a path
+    /// that does not exist.
+    ///
+    /// Fix: name members as in the network file, with dots between them. Name the entries of a list
+    /// by their `id`, by their position from 0, or by `*` for all of them: `vertiports.V3.stands`,
+    /// `fleet.0.count`.
     #[error("{path:?} leads nowhere: there is no {part:?}")]
     NoSuchMember {
         /// The path.
@@ -292,9 +354,13 @@ pub enum Error {
         part: String,
     },
 
-    /// V130. A file of another kind is given: a network file where a scenario is expected, or the other way round. Fix:
-    /// draw a scenario from the network with `vertifleet scenario`, or give the network that the scenario was drawn
-    /// from.
+    /// V130 network for a scenario, or the other way round. A network file is given where a
+    /// scenario is expected, or a scenario, or other JSON, where a network is expected. A network
+    /// is what days are drawn from, and is TOML; a scenario is one day, and is JSON.
+    ///
+    /// Fix: draw a scenario from the network: `vertifleet scenario FILE --seed 1 --output
+    /// DAY.json`. The commands `scenario`, `compare` and `train` take networks; `simulate`,
+    /// `check`, `bound` and `plan` take scenarios.
     #[error("{origin}: this is {found}, and {expected} is expected")]
     WrongKind {
         /// The file.
@@ -305,9 +371,12 @@ pub enum Error {
         expected: FileKind,
     },
 
-    /// V131. A row of a table of demand does not fit the table's columns, or the first line does not hold their names.
-    /// Fix: correct the line that the message names; numbers have a decimal point, and commas only stand between
-    /// columns.
+    /// V131 wrong row in a table of demand. A row of a [table of demand](files.md#demand-models)
+    /// does not fit its columns, or the first line does not have the names of the columns.
+    ///
+    /// Fix: correct the line that the message names. Columns are separated by commas, and numbers
+    /// have a decimal point and no thousands separator. Some spreadsheets write semicolons and
+    /// decimal commas unless they are told otherwise.
     #[error("{origin}: line {line}: {column} must be {rule}, found {found:?}")]
     TableRow {
         /// The table's file.
@@ -322,8 +391,10 @@ pub enum Error {
         found: String,
     },
 
-    /// V132. A network names a table of demand beside its file, but is given as a text, which lies in no folder. Fix:
-    /// read the network from its file, or put the table's rows into it as `pairs`.
+    /// V132 table of demand without a folder. A network names a table of demand beside its file,
+    /// but the network is given as a text, which is not in any folder.
+    ///
+    /// Fix: read the network from its file, or put the rows of the table into it as `pairs`.
     #[error(
         "{origin}: hourly_demand: table {table:?} is to be read from the folder of the network file, and there is none"
     )]
@@ -334,7 +405,9 @@ pub enum Error {
         table: String,
     },
 
-    /// V133. Demand, tariff or elasticity of one pair, or the demand of one pair and period in a table, is given twice.
+    /// V133 pair given twice. The demand, the tariff or the elasticity of a pair stands twice in
+    /// its list, or the demand of a pair and period twice in the table.
+    ///
     /// Fix: remove one of the two.
     #[error("{origin}: {member} gives {what} again")]
     GivenTwice {
@@ -346,8 +419,11 @@ pub enum Error {
         what: String,
     },
 
-    /// V134. A setting of a distribution of demand is missing, or belongs to another distribution: `noise` belongs to
-    /// `normal`, `dispersion` to `negative-binomial`. Fix: add or remove it, or name the other distribution.
+    /// V134 setting that does not fit its distribution. `noise` belongs to the distribution
+    /// `normal`, and `dispersion` to `negative-binomial`. Each is needed with its own distribution
+    /// and refused with the others.
+    ///
+    /// Fix: add or remove the setting, or name the other [distribution](files.md#distributions).
     #[error("{origin}: {member} {rule} with the distribution {distribution:?}")]
     UnfitSetting {
         /// The file.
@@ -360,8 +436,11 @@ pub enum Error {
         distribution: &'static str,
     },
 
-    /// V119. A name is neither a shipped network, nor a random one, nor a file. Fix: give one of the names that the
-    /// message lists, `random:` and a number, or the path of a network file.
+    /// V119 unknown network. A name is neither a shipped network, nor `random:` with a number, nor
+    /// a file.
+    ///
+    /// Fix: give one of the names that the message lists, `random:` and a number, as `random:7`, or
+    /// the path of a network file.
     #[error(
         "there is no network {name:?}: shipped are {shipped}, random:NUMBER and random-places:SIZE:NUMBER draw one, and no file has that path"
     )]
@@ -377,120 +456,4 @@ pub enum Error {
     /// A refusal to write over a file that would be lost (V141 to V144).
     #[error(transparent)]
     Output(#[from] OutputError),
-}
-
-/// Every code of this crate with a title, in order: the index that the documentation is checked against.
-pub const ALL: &[(Code, &str)] = &[
-    (Code(101), "file cannot be read"),
-    (Code(102), "file cannot be written"),
-    (Code(103), "file too large"),
-    (Code(104), "number out of range"),
-    (Code(105), "not JSON or TOML"),
-    (Code(106), "unknown, missing or wrong member"),
-    (Code(107), "unknown format"),
-    (Code(108), "empty or endless list"),
-    (Code(109), "wrong shape"),
-    (Code(110), "duplicate id"),
-    (Code(111), "unknown id"),
-    (Code(112), "bad id"),
-    (Code(113), "more aircraft than stands at a vertiport"),
-    (Code(114), "start after end"),
-    (Code(115), "demand periods out of order"),
-    (Code(116), "demand from a vertiport to itself"),
-    (Code(117), "fleet larger than all stands"),
-    (Code(118), "seed out of range"),
-    (Code(119), "unknown network"),
-    (Code(120), "aircraft without a destination (warning)"),
-    (Code(121), "not exactly one of several members"),
-    (Code(122), "route from a vertiport to itself"),
-    (Code(130), "network for a scenario, or the other way round"),
-    (Code(131), "wrong row in a table of demand"),
-    (Code(132), "table of demand without a folder"),
-    (Code(133), "pair given twice"),
-    (Code(134), "setting that does not fit its distribution"),
-    (Code(135), "vertiport out of reach (warning)"),
-];
-
-impl Coded for Error {
-    fn code(&self) -> Code {
-        Code(match self {
-            Self::CannotRead { .. } => 101,
-            Self::CannotWrite { .. } => 102,
-            Self::FileTooLarge { .. } => 103,
-            Self::OutOfRange { .. } => 104,
-            Self::NotParsed { .. } => 105,
-            Self::WrongMember { .. } => 106,
-            Self::UnknownFormat { .. } | Self::NoFormat { .. } => 107,
-            Self::EntryCount { .. } => 108,
-            Self::WrongShape { .. } => 109,
-            Self::DuplicateId { .. } => 110,
-            Self::UnknownId { .. } => 111,
-            Self::BadId { .. } => 112,
-            Self::StandsExceeded { .. } => 113,
-            Self::StartAfterEnd { .. } => 114,
-            Self::PeriodOrder { .. } => 115,
-            Self::SelfDemand { .. } => 116,
-            Self::FleetTooLarge { .. } => 117,
-            Self::SeedOutOfRange { .. } => 118,
-            Self::UnknownNetwork { .. } => 119,
-            Self::NotOneOf { .. } => 121,
-            Self::RouteToItself { .. } => 122,
-            Self::NoSuchMember { .. } => 123,
-            Self::WrongKind { .. } => 130,
-            Self::TableRow { .. } => 131,
-            Self::TableWithoutFolder { .. } => 132,
-            Self::GivenTwice { .. } => 133,
-            Self::UnfitSetting { .. } => 134,
-            Self::Output(refusal) => return refusal.code(),
-        })
-    }
-
-    fn hint(&self) -> Option<&str> {
-        match self {
-            Self::OutOfRange { hint, .. } => *hint,
-            Self::CannotWrite { .. } => {
-                Some("what was there before under this name is still there, unchanged")
-            }
-            Self::StartAfterEnd { .. } => {
-                Some("times go on past midnight: half past one at night is 25:30:00")
-            }
-            Self::UnknownId { .. } => Some("ids are compared letter by letter, capitals matter"),
-            Self::StandsExceeded { .. } | Self::FleetTooLarge { .. } => {
-                Some("an aircraft needs a stand wherever it is, also on its way there")
-            }
-            Self::PeriodOrder { .. } => Some(
-                "a period lasts until the next one starts, the last one for the rest of the day",
-            ),
-            Self::SeedOutOfRange { limit: SEED_LIMIT, .. } => {
-                Some("the limit is 2^53: every JSON reader holds whole numbers below it exactly")
-            }
-            Self::SeedOutOfRange { .. } => {
-                Some("seeds for comparison, validation and training are kept apart by their size")
-            }
-            Self::UnknownNetwork { meant: Some(meant), .. } => Some(meant),
-            Self::UnknownNetwork { .. } => Some("a network file is TOML, see networks/paper.toml"),
-            Self::Output(refusal) => refusal.hint(),
-            Self::NoSuchMember { .. } => Some(
-                "members are named as in the network file, entries of a list by id (in the fleet by type), position or *",
-            ),
-            Self::WrongKind { expected: FileKind::Scenario, .. } => Some(
-                "`vertifleet scenario FILE --seed 1 --output DAY.json` draws a scenario from a network",
-            ),
-            Self::WrongKind { expected: FileKind::Network, .. } => Some(
-                "`vertifleet simulate`, `check`, `bound` and `plan` take scenarios; a network file is TOML, see networks/paper.toml",
-            ),
-            Self::TableRow { .. } => Some(
-                "a table has the columns period,from,to,passengers, with commas between them and a decimal point in numbers",
-            ),
-            _ => None,
-        }
-    }
-
-    fn exit(&self) -> Exit {
-        match self {
-            Self::CannotWrite { .. } => Exit::Failed,
-            Self::Output(refusal) => refusal.exit(),
-            _ => Exit::Input,
-        }
-    }
 }

@@ -1,4 +1,5 @@
-//! Reading and writing whole files: never reading more than a bound, and never leaving a half-written file.
+//! Reading and writing whole files: never reading more than a bound, and never leaving a
+//! half-written file.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
@@ -6,13 +7,14 @@ use std::path::Path;
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 use crate::Error;
-use crate::outputs::folder_of;
+use crate::paths::{folder_of, leads_somewhere, origin};
 
-/// Held for reading while a file is written, and for writing when the process is to end, so that it ends between two
-/// files.
+/// Held for reading while a file is written, and for writing when the process is to end, so that it
+/// ends between two files.
 static WRITING: RwLock<()> = RwLock::new(());
 
-/// The longest scenario file that is read. Every scenario that obeys the rules is shorter when written.
+/// The longest scenario file that is read. Every scenario that obeys the rules is shorter when
+/// written.
 pub(crate) const LONGEST_SCENARIO: u64 = 64 << 20;
 
 /// The longest network file that is read. Most of its length is demand by hour and pair.
@@ -21,13 +23,8 @@ pub(crate) const LONGEST_NETWORK: u64 = 32 << 20;
 /// The longest table of demand that is read.
 pub(crate) const LONGEST_TABLE: u64 = 16 << 20;
 
-/// The name of a path in messages.
-pub(crate) fn origin(path: &Path) -> String {
-    path.display().to_string()
-}
-
-/// Prefix of the names of unfinished files and folders, which remain if the process is killed. Nothing reads them, and
-/// they may be removed whenever no program is writing.
+/// Prefix of the names of unfinished files and folders, which remain if the process is killed.
+/// Nothing reads them, and they may be removed whenever no program is writing.
 pub(crate) const UNFINISHED: &str = ".vertifleet-";
 
 /// Reads a whole file of at most `longest` bytes.
@@ -37,8 +34,8 @@ pub(crate) const UNFINISHED: &str = ".vertifleet-";
 pub fn read_at_most(path: &Path, longest: u64) -> Result<Vec<u8>, Error> {
     let cannot = |cause| Error::CannotRead { origin: origin(path), cause };
     let mut text = Vec::new();
-    // Reading one byte more than allowed tells a file that is too long from one that just fits, even where the length
-    // is not known beforehand (a pipe).
+    // Reading one byte more than allowed tells a file that is too long from one that just fits,
+    // even where the length is not known beforehand (a pipe).
     File::open(path).map_err(cannot)?.take(longest + 1).read_to_end(&mut text).map_err(cannot)?;
     check_length(&text, longest, &origin(path))?;
     Ok(text)
@@ -64,9 +61,11 @@ pub fn create_folder(path: &Path) -> Result<(), Error> {
     created.map_err(|cause| Error::CannotWrite { origin: origin(path), cause })
 }
 
-/// Writes a whole file, so that whenever the program ends, `path` has either its former contents or all of `contents`.
+/// Writes a whole file, so that whenever the program ends, `path` has either its former contents or
+/// all of `contents`.
 ///
-/// A link is followed. Where `path` is no plain file (a pipe, `/dev/stdout`), `contents` is simply written to it.
+/// A link is followed. Where `path` is no plain file (a pipe, `/dev/stdout`), `contents` is simply
+/// written to it.
 ///
 /// # Errors
 /// [`Error::CannotWrite`]; then `path` is as before.
@@ -74,8 +73,9 @@ pub fn write_atomically(path: &Path, contents: &[u8]) -> Result<(), Error> {
     write(path, contents).map_err(|cause| Error::CannotWrite { origin: origin(path), cause })
 }
 
-/// Waits for the files that [`write_atomically`] is writing. While the guard lives, no other write begins. This lets
-/// the process end while its threads are at work without leaving an unfinished file behind.
+/// Waits for the files that [`write_atomically`] is writing. While the guard lives, no other write
+/// begins. This lets the process end while its threads are at work without leaving an unfinished
+/// file behind.
 pub fn block_writes() -> RwLockWriteGuard<'static, ()> {
     WRITING.write().unwrap_or_else(PoisonError::into_inner)
 }
@@ -83,16 +83,6 @@ pub fn block_writes() -> RwLockWriteGuard<'static, ()> {
 /// Returns the guard to hold while files that belong together are written.
 pub(crate) fn writing() -> RwLockReadGuard<'static, ()> {
     WRITING.read().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Refuses a link to a file that does not exist: the new file would replace the link, and the link's target would stay
-/// empty.
-pub(crate) fn leads_somewhere(path: &Path) -> io::Result<()> {
-    if path.is_symlink() && !path.exists() {
-        let why = "it is a link to a file that is not there";
-        return Err(io::Error::new(io::ErrorKind::NotFound, why));
-    }
-    Ok(())
 }
 
 fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
@@ -104,9 +94,11 @@ fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
     }
     let folder = folder_of(&target);
     fs::metadata(folder)?;
-    // The lock is not held for pipes, above, so that a process that waits for a pipe's reader can be ended.
+    // The lock is not held for pipes, above, so that a process that waits for a pipe's reader can
+    // be ended.
     let _writing = writing();
-    // The name of the temporary file would only confuse a message, so only the kind of the error is kept.
+    // The name of the temporary file would only confuse a message, so only the kind of the error is
+    // kept.
     let mut file = new_file_in(folder).map_err(|error| io::Error::from(error.kind()))?;
     file.write_all(contents)?;
     if let Some(former) = former {
@@ -116,7 +108,8 @@ fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-/// A temporary file with the permissions of any other new file; by default only its owner could read it.
+/// A temporary file with the permissions of any other new file; by default only its owner could
+/// read it.
 fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(UNFINISHED);

@@ -1,12 +1,13 @@
-//! Folders that are written as a whole: afterwards a folder has either all files of one run or its former contents.
+//! Folders that are written as a whole: afterwards a folder has either all files of one run or its
+//! former contents.
 
 use std::fs::{self, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::files::{UNFINISHED, origin, writing};
+use crate::files::{UNFINISHED, writing};
 use crate::output_error::OutputError;
-use crate::outputs::folder_of;
+use crate::paths::{folder_of, origin};
 use crate::{Error, OutputKind};
 
 /// A kind of folder that this program writes, and how to recognise one.
@@ -14,14 +15,16 @@ use crate::{Error, OutputKind};
 pub struct FolderKind {
     /// The word for it in messages, as in "no report".
     pub name: &'static str,
-    /// The name of a file that every folder of this kind has, and the kinds that the file may be of.
+    /// The name of a file that every folder of this kind has, and the kinds that the file may be
+    /// of.
     pub mark: (&'static str, &'static [OutputKind]),
     /// Whether a folder of this kind may hold a file of this name.
     pub holds: fn(&str) -> bool,
 }
 
 impl FolderKind {
-    /// Whether everything in the folder was written by this program, as far as names and the mark tell.
+    /// Whether everything in the folder was written by this program, as far as names and the mark
+    /// tell.
     fn is_of(&self, folder: &Path) -> io::Result<bool> {
         let (mark, kinds) = self.mark;
         let mut empty = true;
@@ -40,11 +43,12 @@ impl FolderKind {
     }
 }
 
-/// Checks that a folder of this kind may replace the one at `path`, if there is one. It may if the old folder is empty
-/// or of the same kind and nothing in it is read-only, or if `force` is given.
+/// Checks that a folder of this kind may replace the one at `path`, if there is one. It may if the
+/// old folder is empty or of the same kind and nothing in it is read-only, or if `force` is given.
 ///
 /// # Errors
-/// [`OutputError`], or [`Error::CannotWrite`] where no folder can be written or something is in the way.
+/// [`OutputError`], or [`Error::CannotWrite`] where no folder can be written or something is in the
+/// way.
 pub fn check_folder(path: &Path, kind: &FolderKind, force: bool) -> Result<(), Error> {
     let cannot = |cause| Error::CannotWrite { origin: origin(path), cause };
     let Ok(former) = fs::metadata(path) else { return Ok(()) };
@@ -102,14 +106,15 @@ fn is_mounted(_: &Metadata, _: &Metadata) -> bool {
     false
 }
 
-/// Replaces the folder at `path` by one with these files, given by name. Either all of them are written, or everything
-/// stays as it was before. A link is followed, and missing parents are created.
+/// Replaces the folder at `path` by one with these files, given by name. Either all of them are
+/// written, or everything stays as it was before. A link is followed, and missing parents are
+/// created.
 ///
-/// A former folder is removed if it is of the same kind. Any other is kept under another name, which is returned; that
-/// requires `force`.
+/// A former folder is removed if it is of the same kind. Any other is kept under another name,
+/// which is returned; that requires `force`.
 ///
-/// The new folder is made beside the old one, and two renames exchange them. A process that is killed just between the
-/// renames leaves both in a folder whose name begins with `.vertifleet-`.
+/// The new folder is made beside the old one, and two renames exchange them. A process that is
+/// killed just between the renames leaves both in a folder whose name begins with `.vertifleet-`.
 ///
 /// # Errors
 /// The errors of [`check_folder`], and [`Error::CannotWrite`], for example where the disk is full.
@@ -141,8 +146,8 @@ fn replace(
 ) -> io::Result<Option<PathBuf>> {
     let _writing = writing();
     let above = folder_of(target);
-    // This temporary folder is removed with all its contents when the function returns, also on an error. Its name
-    // would only confuse a message, so only the kind of the error is kept.
+    // This temporary folder is removed with all its contents when the function returns, also on an
+    // error. Its name would only confuse a message, so only the kind of the error is kept.
     let between = tempfile::Builder::new().prefix(UNFINISHED).tempdir_in(above);
     let between = between.map_err(|error| io::Error::from(error.kind()))?;
     let fresh = between.path().join("new");

@@ -1,9 +1,9 @@
 //! The world as data: networks, scenarios, and days drawn from a seed.
 //!
-//! A [`Scenario`] is one operating day with everything exogenous in it and nothing left to be drawn. Days are drawn
-//! from a [`Network`]. Both are read in two stages: raw text, then checked types that cannot hold nonsense. This crate
-//! builds on no other crate here, and has no simulation clock, no policies and no motion. Its only randomness draws days
-//! and networks.
+//! A [`Scenario`] is one operating day with everything exogenous in it and nothing left to be
+//! drawn. Days are drawn from a [`Network`]. Both are read in two stages: raw text, then checked
+//! types that cannot hold nonsense. This crate builds on no other crate here, and has no simulation
+//! clock, no policies and no motion. Its only randomness draws days and networks.
 //!
 //! ```
 //! use vertifleet_core::{DaySeed, Network};
@@ -28,7 +28,7 @@ mod disturbance_model;
 mod disturbances;
 mod draw;
 mod edit;
-pub mod error;
+mod error;
 mod fares;
 mod feature_scales;
 mod file_kind;
@@ -46,6 +46,8 @@ mod network_file;
 mod output_error;
 mod outputs;
 mod parse;
+mod paths;
+mod random;
 mod random_city;
 mod random_network;
 mod random_places;

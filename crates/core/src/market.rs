@@ -1,16 +1,18 @@
-//! How passengers respond to fares, and how large the whole market is: `[market]` of the network file.
+//! How passengers respond to fares, and how large the whole market is: `[market]` of the network
+//! file.
 //!
-//! The demand model says who wants to fly at the *reference fares*. At another fare P in place of the reference fare P0
-//! a pair has
+//! The demand model says who wants to fly at the *reference fares*. At another fare P in place of
+//! the reference fare P0 a pair has
 //!
 //! ```text
 //! Q = Q0 x demand_factor x exp(elasticity x (1 - P / P0))
 //! ```
 //!
-//! passengers. So `elasticity` is the price elasticity at the reference fare: one percent more fare costs `elasticity`
-//! percent of the passengers. Further up passengers react more strongly, as they do in models of discrete choice, so
-//! that for every elasticity above 0 there is a fare beyond which revenue falls: a monopolist without other limits would
-//! ask for the passenger's cost plus P0 / elasticity.
+//! passengers. So `elasticity` is the price elasticity at the reference fare: one percent more fare
+//! costs `elasticity` percent of the passengers. Further up passengers react more strongly, as they
+//! do in models of discrete choice, so that for every elasticity above 0 there is a fare beyond
+//! which revenue falls: a monopolist without other limits would ask for the passenger's cost plus
+//! P0 / elasticity.
 
 use std::collections::HashSet;
 
@@ -18,7 +20,7 @@ use serde::Deserialize;
 
 use crate::raw::{Positions, each};
 use crate::raw_disturbances::RawRoute;
-use crate::tariffs::RawPairTariff;
+use crate::tariffs::RawReference;
 use crate::{Error, Fares, Matrix, VertiportIx, limits};
 
 /// `[market]` of the network file.
@@ -42,21 +44,6 @@ struct RawElasticity {
     from: String,
     to: String,
     elasticity: f64,
-}
-
-/// The members of `[tariffs]` that were different when the demand was measured. All others are as they are now, but
-/// `fare_level` was 1.
-#[derive(Deserialize, Default)]
-#[serde(deny_unknown_fields, expecting = "the members of reference")]
-pub(crate) struct RawReference {
-    pub(crate) passenger_cost_usd_per_mi: Option<f64>,
-    pub(crate) fare_usd_per_mi: Option<f64>,
-    pub(crate) fare_base: Option<f64>,
-    pub(crate) fare_demand_weight: Option<f64>,
-    pub(crate) fare_factors: Option<Vec<f64>>,
-    pub(crate) boarding_fee_usd: Option<f64>,
-    pub(crate) fare_level: Option<f64>,
-    pub(crate) pairs: Option<Vec<RawPairTariff>>,
 }
 
 /// A checked market.
@@ -157,7 +144,8 @@ mod tests {
         assert_eq!((factor(1.0, 0.0, 0.0), factor(1.0, 5.0, 0.0)), (1.0, 0.0));
     }
 
-    /// The fare with the highest margin, searched for on a fine grid, is the passenger's cost plus P0 / elasticity.
+    /// The fare with the highest margin, searched for on a fine grid, is the passenger's cost plus
+    /// P0 / elasticity.
     #[test]
     fn revenue_has_its_maximum_where_the_formula_says() {
         let (cost_usd, reference_usd) = (12.0, 90.0);

@@ -1,7 +1,8 @@
 //! Paths of members of a network file, such as `vertiports.JFK.stands`.
 //!
-//! The names of a path are separated by dots. A name that holds a dot, an equals sign or a quote stands in quotes, in which a
-//! backslash comes before each quote and backslash: `vertiports."St. John".stands`.
+//! The names of a path are separated by dots. A name that holds a dot, an equals sign or a quote
+//! stands in quotes, in which a backslash comes before each quote and backslash:
+//! `vertiports."St. John".stands`.
 
 use std::borrow::Cow;
 
@@ -24,8 +25,19 @@ pub(crate) fn quoted(name: &str) -> Cow<'_, str> {
     Cow::Owned(format!("\"{}\"", name.replace('\\', "\\\\").replace('"', "\\\"")))
 }
 
-/// A path and what follows it after an equals sign: `fleet.0.count=30` gives `fleet.0.count` and `30`. An equals sign in quotes
-/// belongs to the path.
+/// The position of the entry whose id (or, in the fleet, type) is `part`, or else the position that
+/// `part` is.
+pub(crate) fn position<'a>(
+    mut names: impl ExactSizeIterator<Item = Option<&'a str>>,
+    part: &str,
+) -> Option<usize> {
+    let length = names.len();
+    let counted = || part.parse().ok().filter(|&position| position < length);
+    names.position(|name| name == Some(part)).or_else(counted)
+}
+
+/// A path and what follows it after an equals sign: `fleet.0.count=30` gives `fleet.0.count` and
+/// `30`. An equals sign in quotes belongs to the path.
 pub fn split_path(text: &str) -> Option<(&str, &str)> {
     cut(text, '=')
 }

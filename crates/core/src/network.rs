@@ -1,9 +1,12 @@
-//! A network, from which days are drawn: everything that is the same every day, and how the rest is distributed.
+//! A network, from which days are drawn: everything that is the same every day, and how the rest is
+//! distributed.
 
 use std::path::{Path, PathBuf};
 
-use crate::demand_model::{DemandModel, to_whole};
+use crate::demand_model::DemandModel;
 use crate::disturbance_model::{DelayModel, DisturbanceModel};
+use crate::paths::origin;
+use crate::random::to_whole;
 use crate::{
     AircraftType, Error, FeatureScales, Matrix, Operations, Purpose, Scenario, Time, Vertiport,
     files, nearest, network_file, parse, random_network, random_places,
@@ -35,8 +38,8 @@ pub struct Network {
     pub(crate) toml: String,
     /// The files that the network was read from.
     pub(crate) files: Vec<PathBuf>,
-    /// Everything that is the same every day. The idle day has no passengers, and its aircraft stand anywhere that is
-    /// allowed.
+    /// Everything that is the same every day. The idle day has no passengers, and its aircraft
+    /// stand anywhere that is allowed.
     pub(crate) idle_day: Scenario,
     /// The stands that start positions are drawn for, where they are not those of the vertiports.
     pub(crate) start_stands: Option<Vec<u16>>,
@@ -49,11 +52,11 @@ impl Network {
     /// Reads and checks a network file.
     ///
     /// # Errors
-    /// The file, or the table of demand that it names, cannot be read, is too long, or breaks a rule of the format. The
-    /// message names the member.
+    /// The file, or the table of demand that it names, cannot be read, is too long, or breaks a
+    /// rule of the format. The message names the member.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let origin = files::origin(path);
+        let origin = origin(path);
         let text = files::read_at_most(path, files::LONGEST_NETWORK)?;
         let mut network =
             network_file::network(parse::utf8(&text, &origin)?, path.parent(), &origin)?;
@@ -61,19 +64,20 @@ impl Network {
         Ok(network)
     }
 
-    /// Every error of a network file that can be told at once, for people who are writing one; none if it can be read.
+    /// Every error of a network file that can be told at once, for people who are writing one; none
+    /// if it can be read.
     ///
     /// # Errors
     /// The file cannot be read, is no text, or is too long.
     pub fn findings(path: impl AsRef<Path>) -> Result<Vec<Error>, Error> {
         let path = path.as_ref();
-        let origin = files::origin(path);
+        let origin = origin(path);
         let text = files::read_at_most(path, files::LONGEST_NETWORK)?;
         Ok(network_file::findings(parse::utf8(&text, &origin)?, path.parent(), &origin))
     }
 
-    /// Reads and checks the text of a network file, which must not name a table beside it. `origin` stands for the file
-    /// in messages.
+    /// Reads and checks the text of a network file, which must not name a table beside it. `origin`
+    /// stands for the file in messages.
     ///
     /// # Errors
     /// The text is longer than 32 MiB or breaks a rule of the format; the message names the member.
@@ -95,9 +99,9 @@ impl Network {
         SHIPPED.iter().map(|(name, _)| *name)
     }
 
-    /// Finds the shipped network of this name, the random comparison network of this number (`random:7`), the one of
-    /// this number with so many vertiports at random places (`random-places:8:7`), or else reads the network file at
-    /// this path.
+    /// Finds the shipped network of this name, the random comparison network of this number
+    /// (`random:7`), the one of this number with so many vertiports at random places
+    /// (`random-places:8:7`), or else reads the network file at this path.
     ///
     /// # Errors
     /// [`Error::UnknownNetwork`] if it is none of these, and the errors of [`Network::read`].
@@ -133,8 +137,8 @@ impl Network {
         format!("{RANDOM}{number}")
     }
 
-    /// The name by which [`find`](Self::find) finds the comparison network of this number with so many vertiports at
-    /// random places.
+    /// The name by which [`find`](Self::find) finds the comparison network of this number with so
+    /// many vertiports at random places.
     pub fn random_places_name(vertiports: usize, number: u64) -> String {
         format!("{RANDOM_PLACES}{vertiports}:{number}")
     }
@@ -144,20 +148,20 @@ impl Network {
         &self.name
     }
 
-    /// The time zone of the clocks of its vertiports by its name in the IANA database, for example `America/New_York`, if
-    /// the file names one.
+    /// The time zone of the clocks of its vertiports by its name in the IANA database, for example
+    /// `America/New_York`, if the file names one.
     pub fn time_zone(&self) -> Option<&str> {
         self.time_zone.as_deref()
     }
 
-    /// The text of the network file, with the rows of its table of demand in it if it has one. Reading this text gives
-    /// the same network.
+    /// The text of the network file, with the rows of its table of demand in it if it has one.
+    /// Reading this text gives the same network.
     pub fn toml(&self) -> &str {
         &self.toml
     }
 
-    /// The files that the network was read from: the network file and its table of demand. Empty for a shipped or
-    /// random network.
+    /// The files that the network was read from: the network file and its table of demand. Empty
+    /// for a shipped or random network.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
@@ -202,8 +206,9 @@ impl Network {
         self.feature_scales
     }
 
-    /// For each vertiport the probability of each delay of take-offs, in whole seconds from 0 on; `None` where no network
-    /// setting makes flights late. The delays of slots and vertiports are independent.
+    /// For each vertiport the probability of each delay of take-offs, in whole seconds from 0 on;
+    /// `None` where no network setting makes flights late. The delays of slots and vertiports are
+    /// independent.
     pub fn takeoff_delay_probabilities(&self) -> Option<Vec<Vec<f64>>> {
         self.disturbances.takeoff_delays.as_ref().map(DelayModel::probabilities)
     }
@@ -213,8 +218,9 @@ impl Network {
         self.disturbances.outages.is_some()
     }
 
-    /// The day on which everything is as its mean: demand is rounded to whole passengers, nothing is late, closed or out of
-    /// service but what is so every day, and aircraft stand anywhere that is allowed. For pictures and tables.
+    /// The day on which everything is as its mean: demand is rounded to whole passengers, nothing
+    /// is late, closed or out of service but what is so every day, and aircraft stand anywhere that
+    /// is allowed. For pictures and tables.
     pub fn mean_day(&self) -> Scenario {
         let mut day = self.idle_day.clone().into_day();
         day.name.clone_from(&self.name);

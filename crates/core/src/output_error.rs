@@ -6,8 +6,12 @@ use crate::code::{Coded, Exit};
 /// The reason why a command does not write to a file or folder. Nothing has been written then.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
-    /// V141. A file that a command is to write is one that it reads, perhaps by another name that links to it. Fix:
-    /// name another file to write to. No flag allows it.
+    /// V141 output that is an input. A command was asked to write to a file that it reads, or to
+    /// replace a folder with a report while a file that it reads is in that folder. The two may
+    /// have different names: on Unix files are identified by device and inode, so links are
+    /// recognised.
+    ///
+    /// Fix: name another output file. `--force` does not help here, since the input would be lost.
     #[error("{output}: cannot be written, because this command reads it (as {input})")]
     IsInput {
         /// The file that was to be written.
@@ -16,8 +20,10 @@ pub enum OutputError {
         input: String,
     },
 
-    /// V142. Two results of one command would go to the same file, so that one of them would be lost. Fix: name two
-    /// files.
+    /// V142 two outputs in one file. Two results of a command would go to the same file, so one of
+    /// them would be lost. An example is a trace in the file to which stdout is redirected.
+    ///
+    /// Fix: name two different files.
     #[error("{second}: cannot be written, because this command writes it already (as {first})")]
     Twice {
         /// The first name of the file.
@@ -26,8 +32,12 @@ pub enum OutputError {
         second: String,
     },
 
-    /// V143. A file or folder of this name exists, and this program did not write it for the same purpose. Fix: name
-    /// another one, or say with `--force` (in Python `force=True`) that it may be replaced.
+    /// V143 file of others in the way. A file is there already, and this program did not write it
+    /// for the same purpose ([how it recognises its files](files.md#what-is-replaced)). Or the
+    /// folder for a report holds something else.
+    ///
+    /// Fix: name another file or folder, or replace it with `--force` (in Python `force=True`). A
+    /// folder is then kept beside the report, as `NAME.old`.
     #[error("{origin}: is there already, and is no {kind} that this program wrote")]
     NotOurs {
         /// The file or folder.
@@ -36,8 +46,11 @@ pub enum OutputError {
         kind: &'static str,
     },
 
-    /// V144. A file of this name exists and is read-only. Fix: name another one, or say with `--force` (in Python
-    /// `force=True`) that it may be replaced.
+    /// V144 read-only file in the way. A file is there already, and even its owner may not write to
+    /// it. Or the report folder or a file in it is read-only.
+    ///
+    /// Fix: name another file, or replace it with `--force` (in Python `force=True`). A file stays
+    /// read-only; the files of a report do not.
     #[error("{origin}: is there already, and is read-only")]
     ReadOnly {
         /// The file.

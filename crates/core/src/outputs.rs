@@ -1,15 +1,18 @@
-//! Checks where a command may write: to no file that it reads, to no file twice, and to no file that others wrote.
+//! Checks where a command may write: to no file that it reads, to no file twice, and to no file
+//! that others wrote.
 //!
-//! All checks come before any work is done. Files are identified by device and inode on Unix, so that links are seen
-//! through, and by their canonical paths elsewhere. Anything but a plain file (a pipe, a terminal, `/dev/null`) holds
-//! nothing that could be lost, and may always be written to.
+//! All checks come before any work is done. Files are identified by device and inode on Unix, so
+//! that links are seen through, and by their canonical paths elsewhere. Anything but a plain file
+//! (a pipe, a terminal, `/dev/null`) holds nothing that could be lost, and may always be written
+//! to.
 
 use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use crate::Error;
 use crate::output_error::OutputError;
-use crate::{Error, files};
+use crate::paths::{folder_of, leads_somewhere, origin};
 
 /// A kind of file that this program writes, and how to recognise one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,8 +26,8 @@ pub struct OutputKind {
 }
 
 impl OutputKind {
-    /// Whether this program wrote the file, as far as its beginning tells. An empty file holds nothing that could be
-    /// lost, so it counts as one.
+    /// Whether this program wrote the file, as far as its beginning tells. An empty file holds
+    /// nothing that could be lost, so it counts as one.
     ///
     /// # Errors
     /// The operating system's error if the file cannot be read.
@@ -37,16 +40,16 @@ impl OutputKind {
     }
 }
 
-/// Checks that a file may replace the one at `path`, if there is one. It may if the old file is of the kind that this
-/// program writes there and not read-only, or if `force` is given.
+/// Checks that a file may replace the one at `path`, if there is one. It may if the old file is of
+/// the kind that this program writes there and not read-only, or if `force` is given.
 ///
 /// # Errors
 /// [`OutputError`], or [`Error::CannotWrite`] where a folder is in the way.
 pub fn check_output(path: &Path, kind: &OutputKind, force: bool) -> Result<(), Error> {
-    let origin = files::origin(path);
+    let origin = origin(path);
     let cannot = |cause| Error::CannotWrite { origin: origin.clone(), cause };
     let Ok(former) = fs::metadata(path) else {
-        files::leads_somewhere(path).map_err(cannot)?;
+        leads_somewhere(path).map_err(cannot)?;
         // A missing folder is found now rather than after the work is done.
         return fs::metadata(folder_of(path)).map(|_| ()).map_err(cannot);
     };
@@ -74,8 +77,8 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// The outputs of a command that has no files yet. With `force`, read-only files and files that this program did
-    /// not write are replaced, but never a file that the command reads.
+    /// The outputs of a command that has no files yet. With `force`, read-only files and files that
+    /// this program did not write are replaced, but never a file that the command reads.
     pub fn new(force: bool) -> Self {
         Self { force, ..Self::default() }
     }
@@ -103,7 +106,8 @@ impl Outputs {
     /// Records that the command is going to write this file.
     ///
     /// # Errors
-    /// [`OutputError`] if the command reads the file or writes it already, and the errors of [`check_output`].
+    /// [`OutputError`] if the command reads the file or writes it already, and the errors of
+    /// [`check_output`].
     pub fn writes(&mut self, path: &Path, kind: &OutputKind) -> Result<(), Error> {
         self.claim(path, Place::is)?;
         check_output(path, kind, self.force)
@@ -150,8 +154,8 @@ struct Place {
 }
 
 impl Place {
-    /// Returns `None` for anything that is neither a plain file nor a folder, because it can be read and written at
-    /// once.
+    /// Returns `None` for anything that is neither a plain file nor a folder, because it can be
+    /// read and written at once.
     fn of(path: &Path) -> Option<Self> {
         let former = fs::metadata(path).ok();
         if former.as_ref().is_some_and(|former| !former.is_file() && !former.is_dir()) {
@@ -162,7 +166,7 @@ impl Place {
             Ok::<_, io::Error>(folder.join(path.file_name().unwrap_or_default()))
         });
         Some(Self {
-            origin: files::origin(path),
+            origin: origin(path),
             node: former.as_ref().and_then(node),
             path: whole.unwrap_or_else(|_| path.to_owned()),
         })
@@ -174,14 +178,6 @@ impl Place {
 
     fn is_or_lies_in(&self, folder: &Self) -> bool {
         self.is(folder) || self.path.starts_with(&folder.path)
-    }
-}
-
-/// The folder that a path lies in.
-pub(crate) fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use crate::limits::{self, entries};
+use crate::paths::origin;
 use crate::raw::{Positions, RawAircraftType, RawOperations, RawVertiport, each};
 use crate::raw_disturbances::{RawClosure, RawOutage, RawRoute, RawTakeoffDelays};
 use crate::{
@@ -19,11 +20,12 @@ impl Scenario {
     /// Reads and checks a scenario file.
     ///
     /// # Errors
-    /// The file cannot be read, is longer than 64 MiB, or breaks a rule of the format; the message names the member.
+    /// The file cannot be read, is longer than 64 MiB, or breaks a rule of the format; the message
+    /// names the member.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let text = files::read_at_most(path, files::LONGEST_SCENARIO)?;
-        Self::from_json(&text, &files::origin(path))
+        Self::from_json(&text, &origin(path))
     }
 
     /// Reads and checks the text of a scenario file; `origin` stands for the file in messages.
@@ -86,8 +88,8 @@ struct RawAircraft {
 }
 
 impl RawScenario {
-    /// Converts the file to the open form of a day: ids become positions, rows become tables, counts become whole
-    /// numbers.
+    /// Converts the file to the open form of a day: ids become positions, rows become tables,
+    /// counts become whole numbers.
     fn day(self, origin: &str) -> Result<Day, Error> {
         // Positions are 16 bits wide, so lengths are checked before any position is made.
         let list = |member, found, most| check::entry_count(origin, member, found, most);

@@ -5,7 +5,6 @@ use std::collections::HashSet;
 use serde::Deserialize;
 
 use crate::demand_model::DemandModel;
-use crate::market::RawReference;
 use crate::raw::{Positions, each};
 use crate::raw_disturbances::RawRoute;
 use crate::{Error, Fares, Matrix, VertiportIx, limits};
@@ -133,7 +132,8 @@ impl RawTariffs {
 }
 
 impl Tariffs {
-    /// Takes what single pairs have in place of what the formulas give; `section` is where it stands in the file.
+    /// Takes what single pairs have in place of what the formulas give; `section` is where it
+    /// stands in the file.
     fn take_pairs(
         &mut self,
         section: &str,
@@ -227,7 +227,8 @@ impl Tariffs {
         costs_usd
     }
 
-    /// Cost of a flight with or without passengers, dollars: an amount for each flight and an amount for each mile.
+    /// Cost of a flight with or without passengers, dollars: an amount for each flight and an
+    /// amount for each mile.
     pub(crate) fn flight_costs_usd(&self, distance_mi: &Matrix<f64>) -> Matrix<f64> {
         Matrix::from_fn(distance_mi.size(), |from, to| {
             if from == to {
@@ -242,9 +243,9 @@ impl Tariffs {
         self.rules.aircraft_cost_usd_per_day
     }
 
-    /// P_ij, dollars a passenger: what `pairs` says, or else R_ij (base + weight Qbar_ij / max Qbar) + fare per
-    /// mile x d_ij; times the period's factor, plus the boarding fee; times the level of all fares. The demand is the
-    /// one at the reference fares.
+    /// P_ij, dollars a passenger: what `pairs` says, or else R_ij (base + weight Qbar_ij / max
+    /// Qbar) + fare per mile x d_ij; times the period's factor, plus the boarding fee; times the
+    /// level of all fares. The demand is the one at the reference fares.
     pub(crate) fn fares_usd(&self, distance_mi: &Matrix<f64>, demand: &DemandModel) -> Fares {
         let passenger_cost_usd = self.passenger_costs_usd(distance_mi);
         let mean = demand.reference_day_means(distance_mi.size());
@@ -290,4 +291,19 @@ fn by_period(
         limits.check(value, origin, || format!("{member}[{at}]"))?;
     }
     Ok(())
+}
+
+/// The members of `[tariffs]` that were different when the demand was measured. All others are as
+/// they are now, but `fare_level` was 1.
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields, expecting = "the members of reference")]
+pub(crate) struct RawReference {
+    pub(crate) passenger_cost_usd_per_mi: Option<f64>,
+    pub(crate) fare_usd_per_mi: Option<f64>,
+    pub(crate) fare_base: Option<f64>,
+    pub(crate) fare_demand_weight: Option<f64>,
+    pub(crate) fare_factors: Option<Vec<f64>>,
+    pub(crate) boarding_fee_usd: Option<f64>,
+    pub(crate) fare_level: Option<f64>,
+    pub(crate) pairs: Option<Vec<RawPairTariff>>,
 }

@@ -1,5 +1,5 @@
-//! Things that a scenario or a network may have but that are hardly meant. They are found on request, and no file is
-//! refused for them.
+//! Things that a scenario or a network may have but that are hardly meant. They are found on
+//! request, and no file is refused for them.
 
 use std::fmt;
 
@@ -9,8 +9,11 @@ use crate::{AircraftType, Code, Degrees, Matrix, Network, Scenario, VertiportIx,
 /// A property of a scenario or a network that is allowed but hardly meant.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
-    /// V120. A full battery does not take the aircraft from where it starts to any other vertiport, so that it stands
-    /// there all day. Fix: start it elsewhere, or check its type's battery and the distances.
+    /// V120 aircraft without a destination (warning). From the vertiport where the aircraft starts,
+    /// no other vertiport is within the range of a full battery, so the aircraft stands there all
+    /// day. This is a warning: the day is played all the same.
+    ///
+    /// Fix: start the aircraft elsewhere, or check its type's battery and the distances.
     NoDestination {
         /// The aircraft.
         aircraft: String,
@@ -20,8 +23,13 @@ pub enum Warning {
         at: String,
     },
 
-    /// V135. No aircraft of the fleet can fly to or from a vertiport. Fix: check where it lies; a longitude west of
-    /// Greenwich and a latitude south of the equator are below 0.
+    /// V135 vertiport out of reach (warning). No aircraft of the fleet can fly to or from a
+    /// vertiport: it is too far from all others, or no corridor leads there. Often a longitude west
+    /// of Greenwich was written without its minus sign; the message says at which position the
+    /// vertiport would be within reach. This is a warning: days are played all the same, and no
+    /// aircraft flies there.
+    ///
+    /// Fix: correct the position, or add a corridor, or remove the vertiport.
     OutOfReach {
         /// The vertiport.
         vertiport: String,
@@ -29,15 +37,23 @@ pub enum Warning {
         cause: Cause,
     },
 
-    /// V136. The fleet fills every stand, and a flight needs a free one at its destination, so no aircraft ever flies.
-    /// Fix: more stands than aircraft, or fewer aircraft.
+    /// V136 no stand free (warning). The fleet has as many aircraft as there are stands. A flight
+    /// needs a free stand at its destination when it begins, so no aircraft ever flies. This is a
+    /// warning: days are played all the same.
+    ///
+    /// Fix: add stands, or take fewer aircraft; a tenth more stands than aircraft is little.
     NoStandFree {
         /// Number of aircraft, which is also that of the stands.
         aircraft: usize,
     },
 
-    /// V137. Passengers want to fly between vertiports that no aircraft of the fleet can fly between, and are spilled on every
-    /// day. Fix: add corridors, or take the pairs out of the demand.
+    /// V137 pairs out of reach (warning). At least one passenger in a hundred wants to fly between
+    /// two vertiports that no aircraft of the fleet can fly between: no corridor joins them, or
+    /// they are too far apart. They count as passengers who want to fly and are spilled, whatever
+    /// the fleet. This is a warning: days are played all the same, and no share of all passengers
+    /// beyond the others can be reached.
+    ///
+    /// Fix: add the corridors, or take the pairs out of the demand.
     PairsOutOfReach {
         /// Mean number of these passengers a day.
         passengers: f64,
@@ -47,8 +63,12 @@ pub enum Warning {
         most: (String, String),
     },
 
-    /// V138. Passengers want to fly when no aircraft takes off, and are spilled on every day. Fix: change the hours of
-    /// operation, or the periods of the demand.
+    /// V138 passengers outside the hours of operation (warning). At least one passenger in a
+    /// hundred wants to fly in a period that ends before operations begin or begins after they end.
+    /// They count as passengers who want to fly and are spilled, whatever the fleet. This is a
+    /// warning: days are played all the same.
+    ///
+    /// Fix: change `operations`, or the periods of the demand.
     OutsideOperations {
         /// Mean number of these passengers a day.
         passengers: f64,
@@ -70,7 +90,8 @@ pub enum Cause {
         /// Miles to the nearest other vertiport.
         nearest_mi: f64,
     },
-    /// It lies too far from all others, but would not if a degree had another sign or the two were exchanged.
+    /// It lies too far from all others, but would not if a degree had another sign or the two were
+    /// exchanged.
     Misplaced {
         /// Miles to the nearest other vertiport.
         nearest_mi: f64,
@@ -198,8 +219,8 @@ impl Scenario {
         self.out_of_reach().into_iter().chain(stranded).chain(self.full()).collect()
     }
 
-    /// The warning that all stands are taken for good. Where chargers are counted apart, they are free when the day
-    /// begins.
+    /// The warning that all stands are taken for good. Where chargers are counted apart, they are
+    /// free when the day begins.
     fn full(&self) -> Option<Warning> {
         let pools = self.vertiports.iter().all(|vertiport| vertiport.chargers.is_none());
         let stands: usize = self.vertiports.iter().map(|one| usize::from(one.stands)).sum();
@@ -208,7 +229,8 @@ impl Scenario {
             .then_some(Warning::NoStandFree { aircraft })
     }
 
-    /// The vertiports that no aircraft can reach or leave. A network of a single vertiport has none.
+    /// The vertiports that no aircraft can reach or leave. A network of a single vertiport has
+    /// none.
     fn out_of_reach(&self) -> Vec<Warning> {
         let fleet = self.fleet_types();
         let reached = |vertiport| {
@@ -268,8 +290,8 @@ impl Scenario {
         self.is_corridor(from, to) && self.reaches(kind, self.distance_mi[(from, to)])
     }
 
-    /// Whether a full battery lasts for a flight, which takes e d_ij and the self-discharge on the way. Cruise is
-    /// rounded to whole seconds.
+    /// Whether a full battery lasts for a flight, which takes e d_ij and the self-discharge on the
+    /// way. Cruise is rounded to whole seconds.
     fn reaches(&self, kind: &AircraftType, distance_mi: f64) -> bool {
         let cruise_s = (3600.0 * distance_mi / kind.speed_mph).round();
         let windows_s = self.operations.takeoff_s + self.operations.landing_s;
@@ -284,8 +306,8 @@ fn is_much(passengers: f64, of_all: f64) -> bool {
     passengers > 0.0 && passengers >= LEAST_SHARE * of_all
 }
 
-/// The positions that these degrees may have been meant for, with a sign missing or added, or the two degrees
-/// exchanged.
+/// The positions that these degrees may have been meant for, with a sign missing or added, or the
+/// two degrees exchanged.
 fn slips(Degrees { latitude, longitude }: Degrees) -> [Degrees; 5] {
     [
         Degrees { latitude, longitude: -longitude },

@@ -5,9 +5,11 @@ use vertifleet_core::{Code, Coded, Exit};
 /// An error in what is to be exported.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
-    /// V721. A format places vertiports on the globe, and a vertiport of the day has a position in miles only. Fix:
-    /// give every vertiport of the network `latitude` and `longitude`, or export CSV, Parquet or iCalendar, which do
-    /// without.
+    /// V721 vertiport without latitude and longitude. GeoJSON and GTFS place vertiports on the
+    /// globe, and a vertiport of the day has a position in miles only.
+    ///
+    /// Fix: give every vertiport of the network `latitude` and `longitude`, or export CSV, Parquet
+    /// or iCalendar, which do without.
     #[error(
         "day {day:?}: vertiport {vertiport:?} must have latitude and longitude for {format}, found a position in miles only"
     )]
@@ -20,8 +22,10 @@ pub enum Error {
         format: &'static str,
     },
 
-    /// V722. The date of a day is not a date, is written in another way, or lies outside the years 1970 to 2199. Fix:
-    /// write year, month and day with dashes, such as 2026-11-24.
+    /// V722 not a date. The date of the day is not a date, is written in another way, or lies
+    /// outside the years 1970 to 2199.
+    ///
+    /// Fix: write year, month and day with dashes: `2026-11-24`.
     #[error("date must be {rule}, found {found:?}")]
     BadDate {
         /// How a date is written.
@@ -30,16 +34,19 @@ pub enum Error {
         found: String,
     },
 
-    /// V723. No time zone of the IANA database has this name. Fix: name the zone by area and city, such as
-    /// `America/New_York`, or `UTC`.
+    /// V723 unknown time zone. No time zone of the IANA database has this name.
+    ///
+    /// Fix: name the zone by area and city, for example `America/New_York`, or write `UTC`.
     #[error("time zone must be a name of the IANA time zone database, found {found:?}")]
     UnknownZone {
         /// The name found, cut short if it is long.
         found: String,
     },
 
-    /// V724. A row of the trace refers to an aircraft or a vertiport by a position that the day does not have: the
-    /// trace belongs to another day. Fix: export a trace with the scenario that it was made from.
+    /// V724 row of another day. A row of the trace refers to an aircraft or a vertiport that the
+    /// day does not have.
+    ///
+    /// Fix: export a trace with the scenario that it was made from.
     #[error(
         "day {day:?}: row {row}: {member} is entry {entry} of the {list}, found {found} of them"
     )]
@@ -58,9 +65,10 @@ pub enum Error {
         found: usize,
     },
 
-    /// V725. A value of a row is one that no played day has: an arrival before the departure, a time past 9999:59:59,
-    /// an amount that is not finite. Fix: replay the trace with `vertifleet check`, which names the rule that is
-    /// broken.
+    /// V725 row with a value that no played day has. A row arrives before it departs, has a time
+    /// past 9999:59:59, or an amount that is not finite.
+    ///
+    /// Fix: let `vertifleet check` judge the trace. It names the rule that is broken.
     #[error("day {day:?}: row {row}: {member} must be {rule}, found {found}")]
     WrongValue {
         /// Name of the day.
@@ -75,15 +83,6 @@ pub enum Error {
         found: String,
     },
 }
-
-/// Every code of this crate with a title, in order. The documentation is checked against this list.
-pub const ALL: &[(Code, &str)] = &[
-    (Code(721), "vertiport without latitude and longitude"),
-    (Code(722), "not a date"),
-    (Code(723), "unknown time zone"),
-    (Code(724), "row with an aircraft or a vertiport that the day does not have"),
-    (Code(725), "row with a value that no played day has"),
-];
 
 impl Coded for Error {
     fn code(&self) -> Code {
@@ -120,7 +119,9 @@ impl Coded for Error {
 mod tests {
     use vertifleet_core::Coded;
 
-    use super::{ALL, Error};
+    use vertifleet_core::Code;
+
+    use super::Error;
 
     #[test]
     fn every_error_has_a_code_with_a_title() {
@@ -142,6 +143,6 @@ mod tests {
             Error::WrongValue { day, row: 1, member: "revenue", rule, found },
         ];
         let codes: Vec<_> = errors.iter().map(Coded::code).collect();
-        assert_eq!(codes, ALL.iter().map(|&(code, _)| code).collect::<Vec<_>>());
+        assert_eq!(codes, (721..=725).map(Code).collect::<Vec<_>>());
     }
 }

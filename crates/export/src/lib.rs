@@ -1,8 +1,8 @@
 //! Played days in the formats of other programs.
 //!
-//! A played day is a scenario and the rows of its trace. A plan is written in the same way, because a plan is a trace
-//! too. Every function returns bytes or text, and the caller writes the file; the same day gives the same bytes on
-//! every machine.
+//! A played day is a scenario and the rows of its trace. A plan is written in the same way, because
+//! a plan is a trace too. Every function returns bytes or text, and the caller writes the file; the
+//! same day gives the same bytes on every machine.
 //!
 //! | function | format | for |
 //! |---|---|---|
@@ -14,13 +14,14 @@
 //!
 //! [`typed_table`] writes tables of any kind as Parquet, such as the results of sweeps.
 //!
-//! In every format the departure of a flight is the time of its decision, which is when boarding begins. The aircraft
-//! cruises once the take-off time and any delay are over; it arrives when landing is over, which is when passengers
-//! leave it.
+//! In every format the departure of a flight is the time of its decision, which is when boarding
+//! begins. The aircraft cruises once the take-off time and any delay are over; it arrives when
+//! landing is over, which is when passengers leave it.
 //!
-//! Two formats are left out, because vertiports and aircraft of a scenario have none of the codes that these need: IATA
-//! SSIM names flights by airline, flight number and airport, and the flight lists of OpenSky name aircraft by their
-//! transponders and airports by their ICAO codes. Invented codes would name airports and aircraft that exist.
+//! Two formats are left out, because vertiports and aircraft of a scenario have none of the codes
+//! that these need: IATA SSIM names flights by airline, flight number and airport, and the flight
+//! lists of OpenSky name aircraft by their transponders and airports by their ICAO codes. Invented
+//! codes would name airports and aircraft that exist.
 //!
 //! ```
 //! use vertifleet_core::{DaySeed, Network};
@@ -39,7 +40,7 @@
 
 mod calendar;
 mod columns;
-pub mod error;
+mod error;
 mod flight_path;
 mod flown;
 mod great_circle;

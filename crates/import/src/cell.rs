@@ -1,7 +1,8 @@
 //! A value of one column in one row, whichever kind of file it comes from.
 //!
-//! Text is read by hand from bytes: there are four to six values in each of many million rows, and the general parser
-//! of the standard library costs several times as much as the short forms that occur.
+//! Text is read by hand from bytes: there are four to six values in each of many million rows, and
+//! the general parser of the standard library costs several times as much as the short forms that
+//! occur.
 
 use std::borrow::Cow;
 
@@ -43,7 +44,8 @@ impl<'a> Cell<'a> {
         }
     }
 
-    /// The whole number that the cell holds, also one that is written with a fraction of zero (`132.0`).
+    /// The whole number that the cell holds, also one that is written with a fraction of zero
+    /// (`132.0`).
     #[inline]
     pub(crate) fn whole(self) -> Option<i64> {
         // Whole numbers up to this size are exact as `f64`.
@@ -79,16 +81,16 @@ impl<'a> Cell<'a> {
     }
 }
 
-/// A text with composed accents. Some systems write a letter and its accent as one character, and others as two, so that ids
-/// that look the same would differ.
+/// A text with composed accents. Some systems write a letter and its accent as one character, and
+/// others as two, so that ids that look the same would differ.
 pub(crate) fn composed(text: Cow<'_, str>) -> Cow<'_, str> {
     if is_nfc(&text) { text } else { Cow::Owned(text.nfc().collect()) }
 }
 
 /// Reads a finite decimal number.
 ///
-/// Where the digits fit into 53 bits and the power of ten is exact, one division rounds correctly (Clinger 1990); all
-/// other texts go to the standard library. Both give the same number.
+/// Where the digits fit into 53 bits and the power of ten is exact, one division rounds correctly
+/// (Clinger 1990); all other texts go to the standard library. Both give the same number.
 #[inline]
 fn number(text: &[u8]) -> Option<f64> {
     const EXACT_POWERS: [f64; 16] =
@@ -122,6 +124,16 @@ fn number(text: &[u8]) -> Option<f64> {
 fn slow_number(text: &[u8]) -> Option<f64> {
     let number: f64 = str::from_utf8(text).ok()?.parse().ok()?;
     Some(number).filter(|number| number.is_finite())
+}
+
+/// A text that fits on a line of comment.
+pub(crate) fn printable(text: &str) -> String {
+    crate::error::shortened(&without_controls(text), 80)
+}
+
+/// A text with a space in place of each control character.
+pub(crate) fn without_controls(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 #[cfg(test)]

@@ -2,18 +2,23 @@
 
 use vertifleet_core::{Code, Coded, Exit, Stopped};
 
-/// An expected error of this crate. Messages are fragments for users; [`Error::code`] is for programs and the error
-/// index.
+/// An expected error of this crate. Messages are fragments for users; [`Error::code`] is for
+/// programs and the error index.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// A file that cannot be read or is too long, or a network that breaks a rule of its format (V1xx), as reported
-    /// by `vertifleet-core`.
+    /// A file that cannot be read or is too long, or a network that breaks a rule of its format
+    /// (V1xx), as reported by `vertifleet-core`.
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
 
-    /// V701. A file is not of the kind that its name or its first bytes promise, or it is damaged, or its text is not UTF-8, or
-    /// a row has more values than there are columns, or a map is not in longitude and latitude. Fix: look at the place in the
-    /// message; write the file again as CSV, GeoJSON or Parquet, its text in UTF-8.
+    /// V701 not the promised kind of file. A file is not of the kind that its name or its first
+    /// bytes promise, or it is damaged. Or its text is not UTF-8: some spreadsheets save "Unicode
+    /// text" in UTF-16, and CSV in Windows-1252. Or a row has more values than the header has
+    /// columns, as where a decimal comma is not in quotes. Or a map is in another reference system
+    /// than longitude and latitude.
+    ///
+    /// Fix: look at the place in the message; write the file again as CSV, GeoJSON or Parquet, its
+    /// text in UTF-8.
     #[error("{origin}: cannot be read as {kind}: {problem}")]
     NotParsed {
         /// The file.
@@ -24,9 +29,12 @@ pub enum Error {
         problem: String,
     },
 
-    /// V702. A table has no column, or a map no property, of a name that is needed, or none of several, or the columns of a table
-    /// are separated by something else than commas. Fix: rename the column, or name the one that is meant where the names of columns can be chosen;
-    /// save the file with commas.
+    /// V702 missing column. A table has no column, or a map no property, of a name that is needed,
+    /// or none of several of which one is needed. Often its columns are separated by semicolons or
+    /// tabs, which are then read as one column; the hint says so.
+    ///
+    /// Fix: rename the column; columns of trip records can be named with `--trip-columns`. Save a
+    /// file with other separators with commas between its columns, and with decimal points.
     #[error("{origin}: has no {what} {column}; it has {found}")]
     MissingColumn {
         /// The file.
@@ -41,7 +49,9 @@ pub enum Error {
         hint: Option<String>,
     },
 
-    /// V703. A value is missing, no number or time where one is needed, or outside the bounds that the message states.
+    /// V703 unusable value. A value is missing, no number or time where one is needed, or outside
+    /// the bounds that the message states.
+    ///
     /// Fix: correct the line, feature or row that the message names.
     #[error("{origin}: {place}: {member} must be {rule}, found {found:?}")]
     WrongValue {
@@ -57,8 +67,10 @@ pub enum Error {
         found: String,
     },
 
-    /// V704. A file gives the same vertiport, zone, corridor, pair, period, column or property twice. Fix: remove one of the two,
-    /// or rename it.
+    /// V704 given twice in data of your own. A file gives the same vertiport, zone, corridor, pair,
+    /// period, column or property twice.
+    ///
+    /// Fix: remove one of the two, or rename it.
     #[error("{origin}: {place}: {what} is given before, in {before}")]
     GivenTwice {
         /// The file.
@@ -71,8 +83,10 @@ pub enum Error {
         before: String,
     },
 
-    /// V705. A row or feature names a vertiport that the file of vertiports does not have. Fix: correct the id, or add
-    /// the vertiport.
+    /// V705 unknown vertiport in data of your own. A row or feature names a vertiport that the file
+    /// of vertiports does not have.
+    ///
+    /// Fix: correct the id, or add the vertiport.
     #[error("{origin}: {place}: {member} names {found:?}, which is not among the vertiports")]
     UnknownVertiport {
         /// The file.
@@ -87,8 +101,10 @@ pub enum Error {
         meant: Option<String>,
     },
 
-    /// V706. A feature has another geometry than it needs: vertiports are points, corridors are lines, zones are areas
-    /// or points. Fix: export the right layer, in longitude and latitude (WGS 84).
+    /// V706 wrong geometry. A feature has another geometry than it needs: vertiports are points,
+    /// corridors are lines, zones are areas or points.
+    ///
+    /// Fix: export the right layer, in longitude and latitude (WGS 84).
     #[error("{origin}: {place}: the geometry must be {expected}, found {found}")]
     WrongGeometry {
         /// The file.
@@ -101,8 +117,12 @@ pub enum Error {
         found: String,
     },
 
-    /// V707. The line of a corridor does not begin or end at the vertiport that it names. Fix: draw the line from the
-    /// vertiport `from` to the vertiport `to`, or exchange the two ids.
+    /// V707 corridor that does not begin at its vertiport. The line of a corridor does not begin or
+    /// end at the vertiport that it names. A distance of thousands of miles means that its
+    /// latitudes and longitudes are exchanged.
+    ///
+    /// Fix: draw the line from the vertiport `from` to the vertiport `to`, or exchange the two ids.
+    /// In GeoJSON a position is the longitude and then the latitude.
     #[error(
         "{origin}: {place}: the line must {end} within {limit_mi} mile of vertiport {vertiport:?}, found {found_mi:.1} miles"
     )]
@@ -123,7 +143,9 @@ pub enum Error {
         exchanged: bool,
     },
 
-    /// V708. A file has no row or feature, or nothing at all. Fix: check that it is the right file, and that its export is complete.
+    /// V708 file without rows. A file has no row or feature, or nothing at all.
+    ///
+    /// Fix: check that it is the right file, and that its export is complete.
     #[error("{origin}: has no {what}")]
     Nothing {
         /// The file.
@@ -132,8 +154,9 @@ pub enum Error {
         what: &'static str,
     },
 
-    /// V709. A line of a file of trips is longer than any row of a table. Fix: check that it is a CSV file with one
-    /// row in each line.
+    /// V709 line that is too long. A line of a file of trips is longer than any row of a table.
+    ///
+    /// Fix: check that it is a CSV file with one row in each line.
     #[error("{origin}: the line that begins at byte {begin} is longer than {limit} bytes")]
     LineTooLong {
         /// The file.
@@ -144,16 +167,20 @@ pub enum Error {
         limit: usize,
     },
 
-    /// V710. No trip record became demand, so there would be no passengers. Fix: look at the reasons in the message;
-    /// often the radius is too small, zones have other ids, or latitude and longitude are exchanged.
+    /// V710 no trip became demand. No trip record became demand, so there would be no passengers.
+    ///
+    /// Fix: look at the reasons in the message; often the radius is too small, zones have other
+    /// ids, or latitude and longitude are exchanged.
     #[error("no trip became demand: {account}")]
     NoTrips {
         /// Number of rows, and of rows that were dropped by reason.
         account: String,
     },
 
-    /// V711. A column of a Parquet file has a type from which the values cannot be taken. Fix: write the column with
-    /// the type that the message names.
+    /// V711 unusable type of a Parquet column. A column of a Parquet file has a type from which the
+    /// values cannot be taken.
+    ///
+    /// Fix: write the column with the type that the message names.
     #[error("{origin}: column {column:?} must have {expected}, found {found}")]
     ColumnType {
         /// The file.
@@ -166,7 +193,9 @@ pub enum Error {
         found: String,
     },
 
-    /// V712. A setting of the import is outside its bounds. Fix: choose a value within them.
+    /// V712 setting of an import out of bounds. A setting of the import is outside its bounds.
+    ///
+    /// Fix: choose a value within them.
     #[error("{setting} must be {rule}, found {found}")]
     Setting {
         /// The setting.
@@ -177,16 +206,20 @@ pub enum Error {
         found: String,
     },
 
-    /// V713. Trip records name zones, and no file says where the zones are. Fix: give a file of zones, as CSV with
-    /// `zone,latitude,longitude` or as GeoJSON.
+    /// V713 zones without a file of zones. Trip records name zones, and no file says where the
+    /// zones are.
+    ///
+    /// Fix: give a file of zones, as CSV with `zone,latitude,longitude` or as GeoJSON.
     #[error("{origin}: its trips name zones, and no file of zones is given")]
     NoZones {
         /// The file.
         origin: String,
     },
 
-    /// V714. A demand period begins before the first price of a table, so it has none. Fix: give a price that begins no
-    /// later than the period that the message names.
+    /// V714 demand period without a price. A demand period begins before the first price of a
+    /// table. A price holds from its time until the next one.
+    ///
+    /// Fix: give a price that begins no later than the period that the message names.
     #[error("{origin}: {problem}")]
     PricePeriods {
         /// The file.
@@ -195,7 +228,9 @@ pub enum Error {
         problem: String,
     },
 
-    /// V715. A row or feature leads from a vertiport to itself. Fix: name two vertiports.
+    /// V715 from a vertiport to itself. A row or feature leads from a vertiport to itself.
+    ///
+    /// Fix: name two vertiports.
     #[error("{origin}: {place}: leads from {vertiport:?} to itself")]
     SameVertiport {
         /// The file.
@@ -206,7 +241,9 @@ pub enum Error {
         vertiport: String,
     },
 
-    /// V716. A file lists more than a network takes. Fix: import a smaller region, or fewer demand periods.
+    /// V716 more than a network takes. A file lists more than a network takes.
+    ///
+    /// Fix: import a smaller region, or fewer demand periods.
     #[error("{origin}: {what} must be at most {most}, found {found}")]
     TooMany {
         /// The file.
@@ -219,7 +256,9 @@ pub enum Error {
         found: usize,
     },
 
-    /// V717. The import was asked to stop before it was done. Fix: start it again; nothing was written.
+    /// V717 import stopped. The import was asked to stop before it was done.
+    ///
+    /// Fix: start it again; nothing was written.
     #[error("{Stopped}")]
     Stopped,
 }

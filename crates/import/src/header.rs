@@ -1,8 +1,8 @@
 //! Which column of a table, or which property of a map's features, is the one that is asked for.
 
+use crate::cell::printable;
 use crate::error::shortened;
 use crate::row::{Column, Need};
-use crate::vertiports::printable;
 use crate::{Error, Warning};
 
 /// The names of the columns of a table, or of the properties of features.
@@ -35,8 +35,8 @@ impl<'a> Header<'a> {
         self.names.iter().position(|has| has.eq_ignore_ascii_case(name.trim()))
     }
 
-    /// The positions of the wanted columns. A name that is used must not occur twice. Names that are not used, and that look
-    /// like one of a wanted column that is absent, are warned of.
+    /// The positions of the wanted columns. A name that is used must not occur twice. Names that
+    /// are not used, and that look like one of a wanted column that is absent, are warned of.
     pub(crate) fn find(
         &self,
         wanted: &[Column],
@@ -127,8 +127,8 @@ impl<'a> Header<'a> {
         })
     }
 
-    /// A name that is not used and is the beginning of this one (`fare` for `fare_usd`) or has it as a word (`number of
-    /// stands`).
+    /// A name that is not used and is the beginning of this one (`fare` for `fare_usd`) or has it
+    /// as a word (`number of stands`).
     fn similar(&self, column: &str, used: &[usize]) -> Option<&'a str> {
         let begins = |name: &&str| {
             let beginning = column.get(..name.len());
@@ -159,7 +159,8 @@ pub(crate) struct Missing<'a> {
     pub(crate) column: &'a str,
     /// The names to which similar ones are looked for.
     pub(crate) like: &'a [&'a str],
-    /// The columns that hold something else that is needed, so that they were not meant to be this one.
+    /// The columns that hold something else that is needed, so that they were not meant to be this
+    /// one.
     pub(crate) used: &'a [usize],
     /// What else may be done about it.
     pub(crate) remedy: Option<&'a str>,

@@ -1,11 +1,14 @@
-//! Networks from a planner's own data: vertiports, demand, trip records, corridors, fares and energy prices.
+//! Networks from a planner's own data: vertiports, demand, trip records, corridors, fares and
+//! energy prices.
 //!
-//! [`import`] reads the files of a [`Request`] and makes the text of a network file. What planners have no data on, such
-//! as aircraft types and the fleet, comes from another network, the *base*, with its comments. The text is read again
-//! before it is returned, so that every import is a valid network.
+//! [`import`] reads the files of a [`Request`] and makes the text of a network file. What planners
+//! have no data on, such as aircraft types and the fleet, comes from another network, the *base*,
+//! with its comments. The text is read again before it is returned, so that every import is a valid
+//! network.
 //!
-//! Small files are read whole, trip records in blocks (`trips.rs`); both kinds may be CSV or Parquet, and every value
-//! of either kind is a cell (`cell.rs`). Maps are GeoJSON, with longitude and latitude in degrees.
+//! Small files are read whole, trip records in blocks (`trips.rs`); both kinds may be CSV or
+//! Parquet, and every value of either kind is a cell (`cell.rs`). Maps are GeoJSON, with longitude
+//! and latitude in degrees.
 
 mod cell;
 mod corridors;
@@ -57,22 +60,25 @@ pub struct Request<'a> {
     pub base: &'a Network,
     /// The name of the new network.
     pub name: &'a str,
-    /// The vertiports: CSV with the columns `id,latitude,longitude` and, if it likes, `stands,chargers,busy,name`; or
-    /// GeoJSON points with such properties.
+    /// The vertiports: CSV with the columns `id,latitude,longitude` and, if it likes,
+    /// `stands,chargers,busy,name`; or GeoJSON points with such properties.
     pub vertiports: &'a Path,
     /// The demand.
     pub demand: Demand<'a>,
-    /// The corridors: GeoJSON lines with the properties `from`, `to` and, if it likes, `both_ways`, which is true if
-    /// absent. All pairs may be flown if there is no such file.
+    /// The corridors: GeoJSON lines with the properties `from`, `to` and, if it likes, `both_ways`,
+    /// which is true if absent. All pairs may be flown if there is no such file.
     pub corridors: Option<&'a Path>,
-    /// Fares and passenger costs of pairs: CSV with the columns `from,to,fare_usd,passenger_cost_usd`, of which one of
-    /// the last two may be left out.
+    /// Fares and passenger costs of pairs: CSV with the columns
+    /// `from,to,fare_usd,passenger_cost_usd`, of which one of the last two may be left out.
     pub tariffs: Option<&'a Path>,
-    /// Number of aircraft: the fleet of the base with every type's share of this number. The base's own fleet if absent.
+    /// Number of aircraft: the fleet of the base with every type's share of this number. The base's
+    /// own fleet if absent.
     pub aircraft: Option<u32>,
-    /// The time zone of the network's clocks, by its name in the IANA database; it has none if absent.
+    /// The time zone of the network's clocks, by its name in the IANA database; it has none if
+    /// absent.
     pub time_zone: Option<&'a str>,
-    /// Prices of electricity: CSV with the columns `period,price_usd_per_kwh`. A price holds until the next one.
+    /// Prices of electricity: CSV with the columns `period,price_usd_per_kwh`. A price holds until
+    /// the next one.
     pub energy_prices: Option<&'a Path>,
 }
 
@@ -80,9 +86,10 @@ pub struct Request<'a> {
 #[derive(Debug, Clone)]
 #[expect(clippy::large_enum_variant, reason = "there is one of them in an import")]
 pub enum Demand<'a> {
-    /// Mean passengers of a day by pair and period: CSV or Parquet with the columns `period,from,to,passengers`. A
-    /// period is a time as `HH:MM` or `HH:MM:SS`, or an hour from 0 to 47; it lasts until the next one that the table has, and the
-    /// last one for the rest of the day.
+    /// Mean passengers of a day by pair and period: CSV or Parquet with the columns
+    /// `period,from,to,passengers`. A period is a time as `HH:MM` or `HH:MM:SS`, or an hour from 0
+    /// to 47; it lasts until the next one that the table has, and the last one for the rest of the
+    /// day.
     Table(&'a Path),
     /// Trip records.
     Trips(Trips<'a>),
@@ -103,10 +110,12 @@ pub struct Imported {
     pub warnings: Vec<Warning>,
 }
 
-/// Makes a network of a planner's files. `progress` is told the share of the trip records that has been read.
+/// Makes a network of a planner's files. `progress` is told the share of the trip records that has
+/// been read.
 ///
 /// # Errors
-/// A file cannot be read or breaks a rule, the network that comes out breaks one, or `stop` is requested.
+/// A file cannot be read or breaks a rule, the network that comes out breaks one, or `stop` is
+/// requested.
 pub fn import(
     request: &Request<'_>,
     stop: &Stop,
@@ -175,5 +184,5 @@ fn read<T>(
 /// The name of a file without its folder, for comments.
 fn file_name(path: &Path) -> String {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
-    vertiports::printable(&name.unwrap_or_default())
+    cell::printable(&name.unwrap_or_default())
 }

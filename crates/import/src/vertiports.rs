@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use crate::cell::printable;
 use crate::features;
 use crate::globe::Place;
 use crate::row::{Column, Row, optional, required};
@@ -54,8 +55,8 @@ pub(crate) struct Vertiport {
 pub(crate) struct Vertiports {
     pub(crate) list: Vec<Vertiport>,
     positions: HashMap<String, usize>,
-    /// Those whose ids are whole numbers, also where tables write them with a fraction of zero (`1.0`); `None` for a number
-    /// that several ids are.
+    /// Those whose ids are whole numbers, also where tables write them with a fraction of zero
+    /// (`1.0`); `None` for a number that several ids are.
     by_number: HashMap<i64, Option<usize>>,
 }
 
@@ -137,8 +138,8 @@ impl Vertiports {
 
 /// Vertiports that are nearer to each other than this are at the same place, miles.
 const SAME_PLACE_MI: f64 = 0.01;
-/// Where all vertiports of a network lie nearer to a pole than this, latitude and longitude are exchanged: no town of some
-/// size does, and the longitudes of much of America do. Degrees.
+/// Where all vertiports of a network lie nearer to a pole than this, latitude and longitude are
+/// exchanged: no town of some size does, and the longitudes of much of America do. Degrees.
 const POLAR_LATITUDE: f64 = 72.0;
 
 impl Vertiports {
@@ -163,14 +164,4 @@ impl Vertiports {
         let mut pairs = pairs.map(|(from, to)| (&self.list[from], &self.list[to]));
         pairs.find(|(one, other)| one.place.distance_mi(other.place) < SAME_PLACE_MI)
     }
-}
-
-/// A text that fits on a line of comment.
-pub(crate) fn printable(text: &str) -> String {
-    crate::error::shortened(&without_controls(text), 80)
-}
-
-/// A text with a space in place of each control character.
-pub(crate) fn without_controls(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }

@@ -7,9 +7,14 @@ use vertifleet_core::Code;
 /// Something in a planner's files that is allowed but hardly meant.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
-    /// V718. The demand is hardly meant: there are no passengers at all, a period lasts longer than others because the
-    /// next one is missing, or passengers want to fly outside the hours of operation. Fix: give each hour a row, also
-    /// those with 0 passengers; change the hours of operation.
+    /// V718 strange demand in data of your own (warning). A demand that is imported has no
+    /// passengers at all; or one of its periods lasts longer than others, as a period lasts until
+    /// the next one that the table has, or until operations end; or passengers want to fly outside
+    /// of the hours of operation. This is a warning: the network is made all the same.
+    ///
+    /// Fix: look at the rows. Give each hour a row, with 0 passengers where there are none. Change
+    /// `[operations]` in the new file if your vertiports are open at other times than those of the
+    /// base.
     Demand {
         /// The file.
         origin: String,
@@ -17,8 +22,11 @@ pub enum Warning {
         problem: String,
     },
 
-    /// V719. Vertiports are hardly where they are meant to be: two stand at the same place, or all of them where no one
-    /// lives. Fix: correct the positions; latitude and longitude may be exchanged.
+    /// V719 strange places of vertiports (warning). Two vertiports of an import are at the same
+    /// place, or all of them are within 18 degrees of a pole, where latitude and longitude are
+    /// probably exchanged. This is a warning: the network is made all the same.
+    ///
+    /// Fix: correct the positions.
     Places {
         /// The file.
         origin: String,
@@ -26,8 +34,11 @@ pub enum Warning {
         problem: String,
     },
 
-    /// V720. Prices of electricity change within demand periods, each of which has one price. Fix: give the demand in
-    /// periods that begin when prices change.
+    /// V720 price that changes within a demand period (warning). A network has one price of
+    /// electricity for each demand period, and the table of an import changes it within one. Such a
+    /// period has the mean over its time. This is a warning: the network is made all the same.
+    ///
+    /// Fix: give the demand in periods that begin when the price changes.
     EnergyPrices {
         /// The file.
         origin: String,
@@ -35,7 +46,10 @@ pub enum Warning {
         problem: String,
     },
 
-    /// V740. A column or property is not read, and has nearly the name of one that is read and that the file does not have.
+    /// V740 column that is not read (warning). A file does not have a column or property that is
+    /// read, and has one of a similar name that is not read, such as `charger` for `chargers`. This
+    /// is a warning: the network is made all the same.
+    ///
     /// Fix: rename it if it means that.
     Columns {
         /// The file.
@@ -44,9 +58,14 @@ pub enum Warning {
         problem: String,
     },
 
-    /// V741. Trip records hardly say what is meant: times with a time zone that are not converted, times that cannot be read,
-    /// dates with hardly any records, days without any, a file given twice, exchanged coordinates, passengers that are not
-    /// read. Fix: as the message says.
+    /// V741 strange trip records (warning). Trip records hardly mean what they say. Their times
+    /// have a time zone and are not converted, or cannot be read; dates have hardly any records and
+    /// count as days all the same; days between the dates that were given have none; two files are
+    /// the same; latitude and longitude are exchanged, or positions are in metres; a column that
+    /// seems to hold the passengers is not read. This is a warning: the network is made all the
+    /// same.
+    ///
+    /// Fix: the message names the flag or the file to change.
     Trips {
         /// The files.
         origin: String,

@@ -5,7 +5,9 @@ use vertifleet_core::{Code, Coded, Exit, Stopped};
 /// An expected failure of training, or of loading what a training run wrote.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// V301: the policy has no preset with this name.
+    /// V301 unknown preset. There is no training preset of that name.
+    ///
+    /// Fix: use `default` or `evolution`; for `gcaps` and `mlp` also `paper` or `imitation`.
     #[error("there is no preset {name:?}: presets of this policy are {known}")]
     UnknownPreset {
         /// The name that was asked for.
@@ -13,7 +15,11 @@ pub enum Error {
         /// All names of presets.
         known: &'static str,
     },
-    /// V302: there is no setting with this name.
+    /// V302 unknown setting. There is no training setting of the name given to `--set`, or to
+    /// `vertifleet.settings` in Python.
+    ///
+    /// Fix: use a name from the list in the message; [Training](../concepts/training.md#presets)
+    /// says what each means.
     #[error("there is no setting {name:?}: settings are {known}")]
     UnknownSetting {
         /// The name that was asked for.
@@ -21,7 +27,11 @@ pub enum Error {
         /// All names of settings.
         known: String,
     },
-    /// V303: a value does not fit its setting.
+    /// V303 setting with a bad value. A setting's value is of the wrong kind, or outside the bounds
+    /// that the message states; or the weights to begin with (`begin_with`) are not of the run's
+    /// policy, sizes or network.
+    ///
+    /// Fix: give a value within the bounds, or weights that fit.
     #[error("setting {name:?}: {rule}")]
     BadSetting {
         /// The name of the setting.
@@ -29,7 +39,10 @@ pub enum Error {
         /// The rule that the value breaks.
         rule: String,
     },
-    /// V304: a weight file is damaged or of another kind.
+    /// V304 unusable weights. A weight file is damaged, the file is not a weight file, or its
+    /// tensors are not those of the policy that its header names. The message says what differs.
+    ///
+    /// Fix: use a file that `vertifleet train` wrote, or fetch the shipped weights again.
     #[error("{origin}: no usable weights: {rule}")]
     BadWeights {
         /// The name of the file.
@@ -37,7 +50,11 @@ pub enum Error {
         /// What is wrong with the file.
         rule: String,
     },
-    /// V305: the weights and the day belong to different networks.
+    /// V305 weights of another network. The weights were trained on a network whose number of
+    /// vertiports differs from the day's.
+    ///
+    /// Fix: use weights that were trained on this network, or train such weights. Or use those of
+    /// `gcaps-x` or `gcaps-full`, which fit any network.
     #[error(
         "the weights were trained on network {network:?} with {trained} vertiports, but {scenario:?} has {found}"
     )]
@@ -51,13 +68,23 @@ pub enum Error {
         /// The number of vertiports of the day.
         found: usize,
     },
-    /// V306: a checkpoint is damaged or belongs to another run.
+    /// V306 checkpoint that does not fit. A checkpoint is damaged, or it belongs to a run with
+    /// another network, policy, seed or other settings than those given with `train --resume`.
+    ///
+    /// Fix: resume with the arguments that the run was started with, or start a new run in another
+    /// folder.
     #[error("the checkpoint does not fit: {rule}")]
     BadCheckpoint {
         /// What is wrong with the checkpoint.
         rule: String,
     },
-    /// V307: no trained policy with this name is shipped for the network.
+    /// V307 no shipped policy of that name. A policy is neither a rule nor shipped for that
+    /// network: the name is mistyped, the network is your own, or a scenario's name does not say
+    /// its network. The message lists the available policies, and the hint says which name may have
+    /// been meant.
+    ///
+    /// Fix: use `random`, `greedy`, `prices` or `rolling`, or give weights with `--model`; those of
+    /// `gcaps-x` and `gcaps-full` fit every network.
     #[error("no policy {policy:?} is shipped for network {network:?}: shipped are {known}")]
     NotShipped {
         /// The policy that was asked for.
@@ -67,7 +94,11 @@ pub enum Error {
         /// All shipped policies.
         known: String,
     },
-    /// V308: a learning curve is damaged.
+    /// V308 damaged learning curve. The learning curve beside a weight file (`gcaps-curve.csv`
+    /// beside `gcaps.safetensors`) is not one that `train` wrote. `compare` reads it for its
+    /// figure.
+    ///
+    /// Fix: restore the file, or remove it to have the report without this curve.
     #[error("{origin}: line {line}: no row of a learning curve: {rule}")]
     BadCurve {
         /// The name of the file.
@@ -77,8 +108,11 @@ pub enum Error {
         /// What is wrong.
         rule: String,
     },
-    /// V309: training diverged, and a weight is infinite or NaN. Fix: train with a smaller
-    /// `learning_rate`, from the last checkpoint or from the start.
+    /// V309 training diverged. A training run diverged: some weight became infinite or not a
+    /// number, mostly because the steps were too large.
+    ///
+    /// Fix: train with a smaller `learning_rate`, from the last checkpoint or from the start. The
+    /// checkpoint is from before the update that failed.
     #[error(
         "training diverged: after update or round {update}, a weight is no finite number any more"
     )]
@@ -86,15 +120,20 @@ pub enum Error {
         /// The update of PPO, or the round of imitation, counted from 1.
         update: u64,
     },
-    /// V311: a run was to start in a folder that holds the checkpoint of an earlier run of the same
-    /// policy. Fix: resume that run with `--resume` (in Python `resume=True`), name another folder,
-    /// or remove the checkpoint.
+    /// V311 earlier run in the folder. A training run was asked to begin in a folder that holds the
+    /// checkpoint of an earlier run of the same policy. That checkpoint would be lost.
+    ///
+    /// Fix: continue that run with `--resume` (in Python `resume=True`), name another folder, or
+    /// remove the checkpoint.
     #[error("{checkpoint} is there already, of an earlier run")]
     EarlierRun {
         /// The checkpoint of the earlier run.
         checkpoint: String,
     },
-    /// V408: the work was asked to stop before it was done.
+    /// V408 stopped. A comparison or a training was stopped before all its days were played. In
+    /// Python this is a `KeyboardInterrupt`.
+    ///
+    /// Fix: none needed; nothing was written. Bounds that were proven by then are kept.
     #[error("{Stopped}")]
     Stopped,
     /// An error in a file, a network or a seed.

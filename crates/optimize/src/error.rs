@@ -2,23 +2,30 @@
 
 use vertifleet_core::{Code, Coded, Exit};
 
-/// An expected error of this crate. Messages are fragments for users; [`Error::code`] is for programs and the error
-/// index.
+/// An expected error of this crate. Messages are fragments for users; [`Error::code`] is for
+/// programs and the error index.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A file that cannot be written (V102), as reported by `vertifleet-core`.
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
 
-    /// V501. The step of a bound is not a whole number of minutes from 1 to 60. Fix: name one that is; 5 is usual.
+    /// V501 step out of range. The step of a bound is not a whole number of minutes from 1 to 60.
+    ///
+    /// Fix: give a whole number of minutes from 1 to 60; 5 is usual.
     #[error("the step must be a whole number of minutes from 1 to 60, found {found}")]
     Step {
         /// The step in minutes.
         found: u32,
     },
 
-    /// V502. The day is too large for a bound: types x pairs of vertiports x slices, or types x vertiports x seconds.
-    /// Fix: a longer step for the first; fewer vertiports, types or hours for the second.
+    /// V502 day too large for a bound. The day has too many possible flights (types x pairs of
+    /// vertiports within range x slices), or too many states of aircraft in time (types x
+    /// vertiports x seconds). The message gives both numbers and the largest ones that a bound
+    /// takes.
+    ///
+    /// Fix: A longer step gives fewer possible flights. If there are too many states, use fewer
+    /// vertiports, types or hours.
     #[error(
         "slices of {step_s} s give {flights} possible flights and {places} places and seconds, and a bound takes at most \
          {most_flights} and {most_places}"
@@ -36,7 +43,11 @@ pub enum Error {
         most_places: usize,
     },
 
-    /// V504. A day has take-off delays that the named network never draws, so nothing is known of what they are on the mean.
+    /// V504 days of another network. `bound --without-foresight NETWORK` was given a day whose
+    /// take-off delays that network never draws, or a network without delays for a day that has
+    /// some. What is known of delays beforehand is how likely they are, and that stands in the
+    /// network only.
+    ///
     /// Fix: name the network that the day was drawn from.
     #[error("{day}: its take-off delays cannot have been drawn from the network {network:?}")]
     OtherNetwork {

@@ -1,9 +1,10 @@
 //! The planner, which searches for the best schedule of a day that is known.
 //!
-//! [`plan`] starts from the best day of any policy (`plan/start.rs`) and from a schedule that is made of the prices of a
-//! bound (`plan/dive.rs`), and improves them by large-neighbourhood search (`plan/searches.rs`). The moves of the search are
-//! exact: each finds the best rest of the day for one aircraft while the others keep their flights
-//! (`plan/itinerary_search.rs`). The plan that is returned has been played in the simulator.
+//! [`plan`] starts from the best day of any policy (`plan/start.rs`) and from a schedule that is
+//! made of the prices of a bound (`plan/dive.rs`), and improves them by large-neighbourhood search
+//! (`plan/searches.rs`). The moves of the search are exact: each finds the best rest of the day for
+//! one aircraft while the others keep their flights (`plan/itinerary_search.rs`). The plan that is
+//! returned has been played in the simulator.
 
 mod chargers;
 mod day;
@@ -33,19 +34,21 @@ use searches::Searches;
 
 pub use start::StartingPolicy;
 
-/// Share of the remaining time for which a policy plays its day before it is judged whether it will finish in time.
+/// Share of the remaining time for which a policy plays its day before it is judged whether it will
+/// finish in time.
 const JUDGED_FROM: f64 = 0.25;
-/// Dives take this share of the budget, or less. Within this share, a thorough day of the rolling horizon is played beside them.
+/// Dives take this share of the budget, or less. Within this share, a thorough day of the rolling
+/// horizon is played beside them.
 const DIVE_SHARE: f64 = 0.5;
 /// With less time than this, no dive is begun.
 const LEAST_TO_DIVE: Duration = Duration::from_secs(5);
-/// With less time than this, policies play their days alone if there is enough for that at all: on networks of 20 vertiports and
-/// more the rolling horizon needs all threads.
+/// With less time than this, policies play their days alone if there is enough for that at all: on
+/// networks of 20 vertiports and more the rolling horizon needs all threads.
 const LEAST_TO_SHARE: Duration = Duration::from_secs(20);
 /// Steps of each search in a round, after which the best schedule of all searches is kept.
 const STEPS_A_ROUND: u64 = 50;
-/// Seconds that a round takes at most where time is limited, so that `watch` is called many times a second on days of
-/// any size.
+/// Seconds that a round takes at most where time is limited, so that `watch` is called many times a
+/// second on days of any size.
 const ROUND_S: f64 = 0.05;
 
 /// The budget of a search.
@@ -53,7 +56,8 @@ const ROUND_S: f64 = 0.05;
 pub enum Budget {
     /// A limit of time. How far the searches get by then depends on the machine.
     Time(Duration),
-    /// A number of steps of each search. The plan then depends on nothing but scenario and settings.
+    /// A number of steps of each search. The plan then depends on nothing but scenario and
+    /// settings.
     Steps(u64),
 }
 
@@ -93,7 +97,8 @@ pub struct Plan {
     pub trace: Trace,
     /// Profit of the day, as the simulator accounts for it, dollars.
     pub profit_usd: f64,
-    /// Name of the best policy whose day was played within the budget. One search began with that day.
+    /// Name of the best policy whose day was played within the budget. One search began with that
+    /// day.
     pub best_policy: String,
     /// Profit of that policy, dollars. The plan is never worse.
     pub best_policy_usd: f64,
@@ -101,9 +106,8 @@ pub struct Plan {
     pub steps: u64,
 }
 
-/// The number of search steps on this day that take about as much work as `paper_steps` on a day of `paper`; at least
-/// one. A step looks at every flight from every vertiport in every slot
-/// of time.
+/// The number of search steps on this day that take about as much work as `paper_steps` on a day of
+/// `paper`; at least one. A step looks at every flight from every vertiport in every slot of time.
 pub fn steps_of_equal_work(scenario: &Scenario, paper_steps: u64) -> u64 {
     const PAPER_LOOKS: u64 = 8 * 8 * 720;
     (paper_steps * PAPER_LOOKS / looks_a_step(scenario).max(PAPER_LOOKS)).max(1)
@@ -114,12 +118,14 @@ fn looks_a_step(scenario: &Scenario) -> u64 {
     (scenario.vertiports.len() as u64).pow(2) * minutes
 }
 
-/// Plans a day that is known in full: actual demand, delays, closures and outages. The plan is never worse than the day
-/// of any policy that needs no learning, nor of any of `more`, as far as they can be played within the budget; the
-/// rolling horizon comes last. `watch` is called many times a second with the progress, and returns whether to
-/// continue; if not, the plan is the best found by then.
+/// Plans a day that is known in full: actual demand, delays, closures and outages. The plan is
+/// never worse than the day of any policy that needs no learning, nor of any of `more`, as far as
+/// they can be played within the budget; the rolling horizon comes last. `watch` is called many
+/// times a second with the progress, and returns whether to continue; if not, the plan is the best
+/// found by then.
 ///
-/// A limit of time is kept to within a second or a tenth of the limit, whatever the size of the day.
+/// A limit of time is kept to within a second or a tenth of the limit, whatever the size of the
+/// day.
 pub fn plan(
     scenario: &Arc<Scenario>,
     settings: &SearchSettings,
@@ -138,7 +144,7 @@ pub fn plan(
     let mut stopped = false;
     // The time that the prices of a day take at its start. The search needs them too.
     let mut first = Duration::ZERO;
-    let start::Played { policy, trace, profit_usd } = start::best_policy(scenario, more, &mut {
+    let start::PlayedDay { policy, trace, profit_usd } = start::best_policy(scenario, more, &mut {
         let mut day = DayTimer::begin(&clock);
         let (clock, stopped, first, watch) = (&clock, &mut stopped, &mut first, &mut *watch);
         move |profit_usd, day_share: Option<f64>| {
@@ -154,7 +160,8 @@ pub fn plan(
     });
     let mut plan =
         Plan { trace, profit_usd, best_policy: policy, best_policy_usd: profit_usd, steps: 0 };
-    // Until the dives have ended, another day to begin with is worth more than improving the best one so far.
+    // Until the dives have ended, another day to begin with is worth more than improving the best
+    // one so far.
     if dives && !stopped && (early.is_some() || clock.waits_for_dive()) {
         let day = start::rolled_thoroughly(scenario, &mut || {
             let (share, profit_usd) = (clock.share(0), plan.profit_usd);
@@ -201,7 +208,8 @@ impl Clock {
         }
     }
 
-    /// Whether to begin dives: with a limit of time if there are a few seconds, and otherwise if there are steps for whole ones.
+    /// Whether to begin dives: with a limit of time if there are a few seconds, and otherwise if
+    /// there are steps for whole ones.
     fn leaves_time_to_dive(&self, scenario: &Scenario) -> bool {
         match self.budget {
             Budget::Time(limit) => limit >= LEAST_TO_DIVE,
@@ -217,8 +225,8 @@ impl Clock {
         }
     }
 
-    /// Whether a policy may continue with a day of which a share has been played: there must be time for one more
-    /// decision, and the day must seem to finish in time.
+    /// Whether a policy may continue with a day of which a share has been played: there must be
+    /// time for one more decision, and the day must seem to finish in time.
     fn leaves_time_for(&self, day: &DayTimer, day_share: f64) -> bool {
         let left = self.left();
         let played = day.begun.elapsed();
@@ -234,7 +242,8 @@ impl Clock {
         }
     }
 
-    /// Whether searches wait for the dive before their first step, so that chance of time has no effect on the plan.
+    /// Whether searches wait for the dive before their first step, so that chance of time has no
+    /// effect on the plan.
     fn waits_for_dive(&self) -> bool {
         matches!(self.budget, Budget::Steps(_))
     }
@@ -276,9 +285,9 @@ impl DayTimer {
     }
 }
 
-/// Seconds that the rest of a day will take, if a share of the day took `played`. Policies look ahead to the end of the
-/// day, so the time of a decision is about proportional to the rest of the day: the first half of a day takes three
-/// quarters of its time.
+/// Seconds that the rest of a day will take, if a share of the day took `played`. Policies look
+/// ahead to the end of the day, so the time of a decision is about proportional to the rest of the
+/// day: the first half of a day takes three quarters of its time.
 fn to_come_s(played: Duration, day_share: f64) -> f64 {
     let to_come = (1.0 - day_share).powi(2);
     played.as_secs_f64() * to_come / (1.0 - to_come)

@@ -1,5 +1,5 @@
-//! Who may do what: bearer tokens with roles. As long as no token has been made, every program on this machine may do
-//! everything, and the service listens on this machine alone.
+//! Who may do what: bearer tokens with roles. As long as no token has been made, every program on
+//! this machine may do everything, and the service listens on this machine alone.
 
 mod own_pages;
 
@@ -19,8 +19,8 @@ use sha2::{Digest as _, Sha256};
 use subtle::ConstantTimeEq as _;
 use utoipa::ToSchema;
 
+use crate::clock::now_ms;
 use crate::console;
-use crate::days::now_ms;
 use crate::error::Error;
 use crate::service::Service;
 use crate::store::{Location, Store};

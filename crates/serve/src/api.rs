@@ -103,12 +103,13 @@ pub(crate) fn router(service: Arc<Service>, console: Console) -> Router {
 fn panicked(panic: Box<dyn std::any::Any + Send>) -> Response {
     let said = panic.downcast_ref::<String>().map(String::as_str);
     let said = said.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("a panic");
-    let id = crate::days::now_ms();
+    let id = crate::clock::now_ms();
     tracing::error!(id, said, "a request failed inside");
     Error::Internal { cause: format!("the log has more under {id}") }.into_response()
 }
 
-/// Carries a read out again if another service wrote to the day at that moment, so that the day has to be read again.
+/// Carries a read out again if another service wrote to the day at that moment, so that the day has
+/// to be read again.
 async fn again_after_conflict(request: Request, next: Next) -> Response {
     if request.method() != Method::GET {
         return next.run(request).await;
@@ -126,7 +127,8 @@ async fn again_after_conflict(request: Request, next: Next) -> Response {
     }
 }
 
-/// Ends a request that takes too long to be read or answered. Streams are answered at once, and go on.
+/// Ends a request that takes too long to be read or answered. Streams are answered at once, and go
+/// on.
 async fn in_time(
     State(service): State<Arc<Service>>,
     request: Request,
@@ -137,8 +139,8 @@ async fn in_time(
     answer.map_err(|_| Error::TooSlow { limit_s: limit.as_secs() })
 }
 
-/// Closes the connection after an answer to a request whose body was not read, and says so: otherwise the next request on
-/// it would be lost.
+/// Closes the connection after an answer to a request whose body was not read, and says so:
+/// otherwise the next request on it would be lost.
 async fn with_whole_body(request: Request, next: Next) -> Response {
     let (parts, body) = request.into_parts();
     let has_ended = Arc::new(AtomicBool::new(body.is_end_stream()));

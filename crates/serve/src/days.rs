@@ -8,7 +8,6 @@ use std::collections::HashMap;
 use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use axum::body::Bytes;
 use serde::Serialize;
@@ -17,6 +16,7 @@ use vertifleet_core::Scenario;
 
 pub(crate) use self::reading::replay;
 use crate::calendar::Calendar;
+use crate::clock::now_ms;
 use crate::committer::{Append, Committer};
 use crate::decide::Deciders;
 use crate::dispatch_day::DispatchDay;
@@ -30,7 +30,8 @@ use crate::turns::Turns;
 
 /// Events that a slow reader may be behind before it has to read from the store.
 const KEPT_FOR_READERS: usize = 1_024;
-/// Beyond so many days, days that are not in use leave memory. A day of `paper` takes half a megabyte.
+/// Beyond so many days, days that are not in use leave memory. A day of `paper` takes half a
+/// megabyte.
 const MOST_IN_MEMORY: usize = 1_000;
 /// A write is tried so often when other services write to the same day.
 const TRIES: u32 = 5;
@@ -43,7 +44,8 @@ pub(crate) struct DayCell {
     /// The number of the latest event that is stored.
     durable: watch::Sender<u64>,
     readers: broadcast::Sender<Arc<Published>>,
-    /// Whether an event could not be stored, so that memory is ahead of the store and must be thrown away.
+    /// Whether an event could not be stored, so that memory is ahead of the store and must be
+    /// thrown away.
     pub(crate) has_failed: AtomicBool,
     pub(crate) deciders: Deciders,
 }
@@ -143,8 +145,8 @@ impl DayCell {
         self.calendar.as_ref()
     }
 
-    /// The day after its events so far. Some of them may not be stored yet; [`stored_up_to`](Self::stored_up_to) waits
-    /// for them.
+    /// The day after its events so far. Some of them may not be stored yet;
+    /// [`stored_up_to`](Self::stored_up_to) waits for them.
     pub(crate) fn state(&self) -> MutexGuard<'_, DispatchDay> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -158,7 +160,8 @@ impl DayCell {
         if after <= last { Ok(()) } else { Err(Error::NoSuchEvent { asked: after, last }) }
     }
 
-    /// Whether memory can no longer be trusted: an event could not be stored, or a panic happened over the state.
+    /// Whether memory can no longer be trusted: an event could not be stored, or a panic happened
+    /// over the state.
     pub(crate) fn is_spoilt(&self) -> bool {
         self.has_failed.load(Ordering::Acquire) || self.state.is_poisoned()
     }
@@ -184,7 +187,8 @@ impl DayCell {
         }
     }
 
-    /// Has the day read again by all who use it: an event could not be stored, or the day has changed in the store.
+    /// Has the day read again by all who use it: an event could not be stored, or the day has
+    /// changed in the store.
     pub(crate) fn fail(&self) {
         self.has_failed.store(true, Ordering::Release);
         // Those who wait for an event need not wait any longer.
@@ -194,7 +198,8 @@ impl DayCell {
     /// Waits until an event is stored, so that nothing is shown that a crash could take back.
     ///
     /// # Errors
-    /// Returns [`Error::Conflict`] if the day has to be read again, and [`Error::Store`] if the event cannot be stored.
+    /// Returns [`Error::Conflict`] if the day has to be read again, and [`Error::Store`] if the
+    /// event cannot be stored.
     pub(crate) async fn stored_up_to(&self, seq: u64) -> Result<(), Error> {
         let mut durable = self.durable.subscribe();
         let has_failed = || self.has_failed.load(Ordering::Acquire);
@@ -223,7 +228,8 @@ pub(crate) struct Days {
 type Cells = HashMap<String, Arc<OnceCell<Arc<DayCell>>>>;
 
 impl Days {
-    /// The days of a store, each with at most so many events. Each is read when it is first asked for.
+    /// The days of a store, each with at most so many events. Each is read when it is first asked
+    /// for.
     pub(crate) fn new(store: Store, most_events: u64, turns: Turns) -> Self {
         let metrics = Arc::new(Metrics::default());
         let committer = Committer::start(store.clone(), Arc::clone(&metrics));
@@ -277,7 +283,8 @@ impl Days {
     /// A day; it is read from the store if it is not in memory.
     ///
     /// # Errors
-    /// Returns [`Error::NotFound`] if there is no such day, [`Error::BadData`] if it is damaged, and [`Error::Store`].
+    /// Returns [`Error::NotFound`] if there is no such day, [`Error::BadData`] if it is damaged,
+    /// and [`Error::Store`].
     pub(crate) async fn get(&self, id: &str) -> Result<Arc<DayCell>, Error> {
         let day = self.in_memory(id).await?;
         if !self.store.is_shared() || self.catch_up(&day).await? {
@@ -304,10 +311,12 @@ impl Days {
         day.cloned()
     }
 
-    /// Checks that the event after which a reader continues has happened, in this very log if the mark says so.
+    /// Checks that the event after which a reader continues has happened, in this very log if the
+    /// mark says so.
     ///
     /// # Errors
-    /// Returns [`Error::NoSuchEvent`] or [`Error::OtherLog`] if it has not: the day was put back from a copy.
+    /// Returns [`Error::NoSuchEvent`] or [`Error::OtherLog`] if it has not: the day was put back
+    /// from a copy.
     pub(crate) async fn check_mark(&self, day: &DayCell, mark: EventMark) -> Result<(), Error> {
         let EventMark { seq, chain: Some(chain) } = mark else { return day.check_begun(mark.seq) };
         let latest = {
@@ -344,12 +353,12 @@ impl Days {
         Ok(Arc::clone(day))
     }
 
-    /// Adds events to a day, all or none, and returns once they are stored. `answer` makes the answer to the writer, which
-    /// is stored with the events if the request has a key.
+    /// Adds events to a day, all or none, and returns once they are stored. `answer` makes the
+    /// answer to the writer, which is stored with the events if the request has a key.
     ///
     /// # Errors
-    /// Returns [`Error::Moved`] if the day is at another event than the writer expects, [`Error::Archived`], the errors
-    /// of [`DispatchDay::take`], and [`Error::Store`].
+    /// Returns [`Error::Moved`] if the day is at another event than the writer expects,
+    /// [`Error::Archived`], the errors of [`DispatchDay::take`], and [`Error::Store`].
     pub(crate) async fn append<T: Serialize>(
         &self,
         day: &Arc<DayCell>,
@@ -360,8 +369,8 @@ impl Days {
         let mut day = Arc::clone(day);
         for _ in 0..TRIES {
             match self.append_once(&day, writer.clone(), events.clone(), &answer).await {
-                // Another service was quicker. The day is read again, and the events are taken in after those of the other,
-                // unless the writer expects the day to be where it was.
+                // Another service was quicker. The day is read again, and the events are taken in
+                // after those of the other, unless the writer expects the day to be where it was.
                 Err(Error::Conflict) => {
                     self.check_key(&writer).await?;
                     day = self.get(day.id()).await?;
@@ -375,7 +384,8 @@ impl Days {
     /// Checks that no other service has carried the request out.
     ///
     /// # Errors
-    /// Returns [`Error::KeyInUse`] if one has. Sent again, the request gets the answer that it got there.
+    /// Returns [`Error::KeyInUse`] if one has. Sent again, the request gets the answer that it got
+    /// there.
     async fn check_key(&self, writer: &Writer) -> Result<(), Error> {
         let Some(Idempotency { key, .. }) = &writer.idempotency else { return Ok(()) };
         match self.store.answer(key).await? {
@@ -438,10 +448,4 @@ fn take_all(
         *state = before;
     }
     taken
-}
-
-/// Milliseconds of the Unix clock.
-pub(crate) fn now_ms() -> i64 {
-    let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
-    i64::try_from(since.as_millis()).unwrap_or(i64::MAX)
 }

@@ -1,14 +1,15 @@
 //! The errors of the service, with stable codes (V6xx) and what they mean in HTTP.
 
+mod codes;
+
 use std::path::PathBuf;
 
 use axum::http::StatusCode;
-use vertifleet_core::{Code, Coded, Exit};
 use vertifleet_policy::PolicyError;
 use vertifleet_sim::live::ReportError;
 
-/// An expected error of the service. Messages are fragments for people; [`Coded::code`] is for programs and for the error
-/// index.
+/// An expected error of the service. Messages are fragments for people; [`Coded::code`] is for
+/// programs and for the error index.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A network, a scenario or a file (V1xx); the error is one of `vertifleet-core`.
@@ -19,16 +20,21 @@ pub enum Error {
     #[error(transparent)]
     Study(#[from] vertifleet_study::Error),
 
-    /// V601. A request that is not understood. Cause: JSON that is not well-formed, a member that is missing, unknown or
-    /// of the wrong type, or a value out of bounds. Fix: send what the API's description says.
+    /// V601 request not understood. The service was sent JSON that is not well-formed, a member
+    /// that is missing, unknown or of the wrong type, or a value out of bounds. The message names
+    /// it.
+    ///
+    /// Fix: send what [the description of the API](api.md) says.
     #[error("the request is not understood: {rule}")]
     BadRequest {
         /// What is wrong.
         rule: String,
     },
 
-    /// V602. There is no such day, network, policy or path. Cause: a wrong id, or a day that was deleted. Fix: list what
-    /// there is.
+    /// V602 no such thing. There is no day, network, policy, event, token or path of this name.
+    ///
+    /// Fix: list what there is: `GET /v1/days`. If it is an event that the client has seen before,
+    /// the day was put back from an older copy: read its state again.
     #[error("there is no {what} {id:?}")]
     NotFound {
         /// What was asked for.
@@ -37,8 +43,8 @@ pub enum Error {
         id: String,
     },
 
-    /// V602. There is no such event yet. Cause: a wrong number, or the day was put back from a copy that is older than what
-    /// the client has seen. Fix: read the state of the day again.
+    /// There is no such event yet. Cause: a wrong number, or the day was put back from a copy
+    /// that is older than what the client has seen. Fix: read the state of the day again.
     #[error("there is no event {asked}: the day is at event {last}")]
     NoSuchEvent {
         /// The number that was asked for.
@@ -47,15 +53,21 @@ pub enum Error {
         last: u64,
     },
 
-    /// V631. The log of the day is another one than the client has read. Cause: the day was put back from a copy, and may have
-    /// gone on since. Fix: read the day again from its first event.
+    /// V631 another log. A stream is to go on after an event that is not in the log of the day. The
+    /// day was put back from a copy, and may have gone on since, so that other events have the
+    /// numbers that the client knows.
+    ///
+    /// Fix: read the day again from its first event. The console does so automatically.
     #[error("event {mark} is not in the log of the day")]
     OtherLog {
         /// The mark of the event that the client has read.
         mark: String,
     },
 
-    /// V603. The day has no such aircraft or vertiport. Cause: a wrong id. Fix: use the ids of the day's scenario.
+    /// V603 no such aircraft or vertiport. An event, a decision or a question names an aircraft, a
+    /// vertiport or a demand period that the day does not have.
+    ///
+    /// Fix: use the ids of the day's scenario; `GET /v1/days/{day}/state` lists them.
     #[error("the day has no {what} {id:?}")]
     UnknownId {
         /// Aircraft or vertiport.
@@ -64,8 +76,11 @@ pub enum Error {
         id: String,
     },
 
-    /// V604. An event or a decision that the day cannot take. Cause: it breaks a rule, or it contradicts what has been
-    /// reported. Fix: the message names the rule.
+    /// V604 the day cannot take it. A decision breaks a rule, or an event contradicts what has been
+    /// reported: an aircraft that stands cannot land.
+    ///
+    /// Fix: the message names the rule. If reality is as the event says, report first what led
+    /// there.
     #[error("{0}")]
     ReportError(#[from] ReportError),
 
@@ -80,8 +95,10 @@ pub enum Error {
         cause: Box<Error>,
     },
 
-    /// V605. The day has gone on. Cause: another client added an event after the state that the request was made for
-    /// (`If-Match`). Fix: read the day again and decide anew.
+    /// V605 the day has gone on. The request was made for an earlier state (`If-Match`), and
+    /// another client has added an event since.
+    ///
+    /// Fix: read the day again, and decide anew.
     #[error("the day is at event {found}, and the request was made for event {expected}")]
     Moved {
         /// The sequence number in the request.
@@ -90,16 +107,21 @@ pub enum Error {
         found: u64,
     },
 
-    /// V606. The store cannot be used. Cause: a full or broken disk, missing permissions, or a database that does not
-    /// answer. Fix: the message of the store says what failed; nothing that was acknowledged is lost.
+    /// V606 the store failed. The disk is full or broken, permissions are missing, or the database
+    /// does not answer within 5 seconds. Nothing that was acknowledged is lost; what a database
+    /// that hangs was sent may still be stored.
+    ///
+    /// Fix: the message has what the store says. Send the request again with the same
+    /// `Idempotency-Key` once it works.
     #[error("the store failed: {cause}")]
     Store {
         /// What the store says.
         cause: String,
     },
 
-    /// V606. The database hangs: it holds its connections and does not answer. What it was asked to store may be stored later.
-    /// Fix: send the request again with its `Idempotency-Key` once the database answers.
+    /// The database hangs: it holds its connections and does not answer. What it was asked to
+    /// store may be stored later. Fix: send the request again with its `Idempotency-Key` once the
+    /// database answers.
     #[error(
         "the store failed: the database has not answered for {s} s; what it was sent may still be stored"
     )]
@@ -108,43 +130,56 @@ pub enum Error {
         s: u64,
     },
 
-    /// V607. The data belongs to another version of the program, or is damaged. Cause: a newer program wrote it, or bytes
-    /// on the disk changed. Fix: use the newer program, or restore a copy; `vertifleet serve verify` names the events.
+    /// V607 data cannot be read. A newer program wrote the data, or it is no data of this program
+    /// at all, or bytes in it were changed: what a day begins with has a sum, and each event has
+    /// one over itself and those before.
+    ///
+    /// Fix: use the newer program, name the right folder or file, or restore a copy of the data.
+    /// `vertifleet serve verify` names what is damaged.
     #[error("the data of the service cannot be read: {rule}")]
     BadData {
         /// What is wrong.
         rule: String,
     },
 
-    /// V607. The data is that of another program, or of a newer version. Fix: use the program that wrote it, or name the
-    /// right folder or file.
+    /// The data is that of another program, or of a newer version. Fix: use the program that
+    /// wrote it, or name the right folder or file.
     #[error("the data of the service cannot be read: {rule}")]
     ForeignData {
         /// What is wrong.
         rule: String,
     },
 
-    /// V608. The day is closed to writes. Cause: it was archived. Fix: open it again, or make a new day.
+    /// V608 day archived. The day was archived, and takes no events any more.
+    ///
+    /// Fix: open it again with `POST /v1/days/{day}/unarchive`, which needs the role `admin`, or
+    /// make a new day.
     #[error("day {id:?} is archived")]
     Archived {
         /// The day.
         id: String,
     },
 
-    /// V609. The same `Idempotency-Key` came with another request. Cause: a client uses one key twice. Fix: a new key for
-    /// each request.
+    /// V609 idempotency key used twice. The same `Idempotency-Key` came with another request.
+    ///
+    /// Fix: use a new key for each request, and the same one only to send the same request again.
     #[error("the idempotency key {key:?} was used for another request")]
     KeyReused {
         /// The key.
         key: String,
     },
 
-    /// V610. A request without a token that is in force. Cause: no `Authorization: Bearer` header, a wrong token, or one
-    /// that was revoked. Fix: make a token with `vertifleet serve token make`, and send it.
+    /// V610 token missing. The service has tokens, and the request came without one that is in
+    /// force.
+    ///
+    /// Fix: make one with `vertifleet serve token make`, and send it as `Authorization: Bearer
+    /// vf_...`.
     #[error("the request needs a token that is in force")]
     NoToken,
 
-    /// V611. The service cannot listen. Cause: the address is in use, or not of this machine. Fix: name another one.
+    /// V611 cannot listen. The address of `--listen` is in use, or does not belong to this machine.
+    ///
+    /// Fix: name another address or port.
     #[error("cannot listen on {address}: {cause}")]
     CannotListen {
         /// The address.
@@ -153,8 +188,9 @@ pub enum Error {
         cause: std::io::Error,
     },
 
-    /// V612. The service has reached a limit. Cause: more days, events, streams or bytes than it takes. Fix: archive or
-    /// delete days, or send less.
+    /// V612 too much. A limit of the service was reached; the message names it.
+    ///
+    /// Fix: send less, or delete days that are over.
     #[error("the service takes at most {most} {what}")]
     TooMuch {
         /// Of what.
@@ -163,8 +199,11 @@ pub enum Error {
         most: u64,
     },
 
-    /// V613. The operator cannot go on. Cause: the service at the address does not answer, or answers with an error.
-    /// Fix: the message has the service's answer.
+    /// V613 the service does not answer. `vertifleet operate` got no answer from the service for
+    /// half a minute, or an error.
+    ///
+    /// Fix: the message has the service's answer. Check the address, and that `vertifleet serve`
+    /// runs there.
     #[error("{url}: {rule}")]
     NoAnswer {
         /// The address.
@@ -173,38 +212,47 @@ pub enum Error {
         rule: String,
     },
 
-    /// V614. A request with this key is being carried out. Cause: it was sent again before the first was answered. Fix:
-    /// wait, and send it again.
+    /// V614 idempotency key in use. A request with this key is being carried out: it was sent again
+    /// before the first was answered.
+    ///
+    /// Fix: wait a moment, and send it again.
     #[error("a request with the idempotency key {key:?} is being carried out")]
     KeyInUse {
         /// The key.
         key: String,
     },
 
-    /// V615. Something that should not happen. Cause: a defect of the program. Fix: report it, with what the log says.
+    /// V615 something went wrong inside. A defect of the program. The log of the service has more.
+    ///
+    /// Fix: report it with what the log says.
     #[error("something went wrong inside: {cause}")]
     Internal {
         /// What went wrong.
         cause: String,
     },
 
-    /// V616. The path cannot be asked in this way. Cause: a wrong method of HTTP. Fix: use one that the API's description
-    /// has for the path.
+    /// V616 wrong method. The path does not take this method of HTTP.
+    ///
+    /// Fix: use one that [the description of the API](api.md) has for the path.
     #[error("the path does not take {method}")]
     NotAllowed {
         /// The method.
         method: String,
     },
 
-    /// V617. What has happened could not have happened on a day that had begun like this. Cause: a what-if with fewer
-    /// stands than the day has used. Fix: ask for a day on which every event so far was possible.
+    /// V617 what-if contradicts what happened. A what-if has fewer stands than the day has already
+    /// used, so what has happened could not have happened.
+    ///
+    /// Fix: ask for a day on which every event so far was possible.
     #[error("the day could not have gone as it did: {rule}")]
     Contradiction {
         /// The event, and why it was not possible.
         rule: String,
     },
 
-    /// V618. A token that does not permit this. Cause: its role. Fix: use a token with the role that the message names.
+    /// V618 role does not permit this. The token's role does not permit the request.
+    ///
+    /// Fix: use a token with the role that the message names.
     #[error("a token with the role {role:?} does not permit this; {needed:?} does")]
     NotPermitted {
         /// The token's role.
@@ -213,9 +261,11 @@ pub enum Error {
         needed: &'static str,
     },
 
-    /// V619. An address that others can reach, without protection. Cause: `--listen` names an address beyond this
-    /// machine. Fix: name a certificate (`--certificate`, `--key`) or let a proxy that speaks TLS stand before the service
-    /// (`--behind-proxy`), and make a token.
+    /// V619 address not protected. `--listen` names an address that other machines can reach, and
+    /// what is said there is not encrypted, or there is no token.
+    ///
+    /// Fix: listen on 127.0.0.1. Or let a proxy that speaks TLS stand before the service, say so
+    /// with `--behind-proxy`, and make a token.
     #[error("{address} can be reached by others: {missing}")]
     Unprotected {
         /// The address.
@@ -224,16 +274,21 @@ pub enum Error {
         missing: &'static str,
     },
 
-    /// V620. Another service uses the folder. Cause: a second `vertifleet serve` with the same `--data`. Fix: stop the
-    /// other one, name another folder, or let both use a `PostgreSQL` database.
+    /// V620 folder in use. Another `vertifleet serve` uses the folder of `--data`.
+    ///
+    /// Fix: stop the other one, name another folder, or let both use a PostgreSQL database.
     #[error("{}: another service uses this folder", folder.display())]
     InUse {
         /// The folder.
         folder: PathBuf,
     },
 
-    /// V623. A token sends more requests than it may. Cause: a client that asks again and again, or a token that many
-    /// clients use. Fix: wait a second, ask less often, and give each client a token of its own.
+    /// V623 too many requests. A token sent more requests in a second than the service takes from
+    /// one: a client that asks again and again, or many clients with one token. Requests without a
+    /// token that is in force are counted together.
+    ///
+    /// Fix: wait a second, ask less often, and give each client a token of its own. A client that
+    /// wants to know what happens reads the stream of the day instead of asking for its state.
     #[error("{who} sent more than {most} requests in a second")]
     TooOften {
         /// The token's name.
@@ -242,8 +297,10 @@ pub enum Error {
         most: u32,
     },
 
-    /// V624. A certificate or its key cannot be used. Cause: no such file, no PEM file, or a key of another certificate.
-    /// Fix: name the certificate with its chain and its own key, both as PEM files.
+    /// V624 unusable certificate. A file of `--certificate`, `--key` or `--trust` cannot be read,
+    /// is no PEM file, or the key belongs to another certificate.
+    ///
+    /// Fix: name the certificate with its chain, and its own key, both as PEM files.
     #[error("{}: {rule}", file.display())]
     BadCertificate {
         /// The file.
@@ -252,9 +309,11 @@ pub enum Error {
         rule: String,
     },
 
-    /// V625. Spans cannot be sent to the collector that is named. Cause: `--otlp` or `OTEL_EXPORTER_OTLP_ENDPOINT` is no
-    /// address of HTTP, or the environment asks for what this program does not have. Fix: name the collector as
-    /// `http://127.0.0.1:4318`.
+    /// V625 unusable collector. `--otlp` or `OTEL_EXPORTER_OTLP_ENDPOINT` is no address of HTTP, or
+    /// a variable of OpenTelemetry asks for something that this program does not have, such as
+    /// `OTEL_EXPORTER_OTLP_COMPRESSION`.
+    ///
+    /// Fix: name the collector as `http://127.0.0.1:4318`, by the port that takes OTLP over HTTP.
     #[error("spans cannot be sent to {address:?}: {rule}")]
     BadCollector {
         /// The address.
@@ -263,8 +322,12 @@ pub enum Error {
         rule: String,
     },
 
-    /// V626. The console cannot show this base map. Cause: `--basemap` is no address of HTTP. Fix: name a style or a PMTiles
-    /// file as `https://tiles.example.com/style.json`.
+    /// V626 unusable base map. `--basemap` is no address of HTTP, or its host is no plain name or
+    /// number.
+    ///
+    /// Fix: name a style or a PMTiles file as `https://tiles.example.com/style.json`. Whether
+    /// something is there is seen in the console, which keeps the bundled base map where another
+    /// cannot be loaded.
     #[error("the console cannot show the base map {address:?}: {rule}")]
     BadBasemap {
         /// The address.
@@ -273,9 +336,12 @@ pub enum Error {
         rule: String,
     },
 
-    /// V627. A request without a token that a page of another machine may have sent. Cause: the service has no tokens, so it
-    /// trusts this machine alone, and the request names another host or comes from a page of one. Fix: ask for
-    /// `http://127.0.0.1:8080`, or make a token, after which nothing else counts.
+    /// V627 request of a foreign page. The service has no tokens, so it trusts this machine alone,
+    /// and a browser may show a foreign page on it. The request names a host that is not this
+    /// machine, or comes from a page of another one.
+    ///
+    /// Fix: ask for `http://127.0.0.1:8080` or `http://localhost:8080`. For all else make a token
+    /// with `vertifleet serve token make`; then tokens alone count.
     #[error("the service has no tokens, and the request {what} {named:?}")]
     ForeignPage {
         /// What the request does.
@@ -284,21 +350,26 @@ pub enum Error {
         named: String,
     },
 
-    /// V628. Invalid database address. Cause: `--database` is no address of `PostgreSQL`. Fix: name it as
-    /// `postgres://user@host/database`.
+    /// V628 unusable address of a database. `--database` is no address of PostgreSQL.
+    ///
+    /// Fix: name it as `postgres://user@host/database`.
     #[error("the address of the database must begin with postgres:// or postgresql://")]
     BadDatabase,
 
-    /// V629. A token with this name is in force. Cause: two tokens with one name could not be told apart in the record of
-    /// who did what. Fix: name it otherwise, or revoke the other one.
+    /// V629 token name in use. A token with this name is in force, and two with one name could not
+    /// be told apart in the record of who did what.
+    ///
+    /// Fix: name the new one otherwise, or revoke the other one first.
     #[error("a token with the name {name:?} is in force")]
     NameTaken {
         /// The name.
         name: String,
     },
 
-    /// V630. A policy that days need cannot be deleted. Cause: days that are not archived are decided by it. Fix: archive
-    /// them, or leave the policy.
+    /// V630 policy in use. A policy of your own is to be deleted, and days that are not archived
+    /// are decided by it.
+    ///
+    /// Fix: archive these days, or keep the policy.
     #[error("policy {name:?} decides on {days} days that are not archived")]
     PolicyInUse {
         /// The policy.
@@ -307,13 +378,17 @@ pub enum Error {
         days: i64,
     },
 
-    /// V621. Another process wrote to the same day at the same time, again and again. Cause: several services share a
-    /// database, and many clients write to one day through all of them. Fix: send the request again.
+    /// V621 conflict between services. Several services share a database, and another one wrote to
+    /// the same day at the same time, again and again.
+    ///
+    /// Fix: send the request again, with the same `Idempotency-Key`.
     #[error("another service wrote to the day at the same time")]
     Conflict,
 
-    /// V622. A request that took too long. Cause: its body came too slowly, or the service has too much to do. Fix: send it
-    /// again, with the same `Idempotency-Key`.
+    /// V622 request too slow. The body of the request came too slowly, or the service has too much
+    /// to do.
+    ///
+    /// Fix: send the request again, with the same `Idempotency-Key`.
     #[error("the request took longer than {limit_s} s")]
     TooSlow {
         /// The limit.
@@ -403,93 +478,6 @@ impl From<sqlx::Error> for Error {
         match &error {
             sqlx::Error::Database(cause) if cause.is_unique_violation() => Self::Conflict,
             _ => Self::Store { cause: error.to_string() },
-        }
-    }
-}
-
-impl Coded for Error {
-    fn code(&self) -> Code {
-        Code(match self {
-            Self::Core(error) => return error.code(),
-            Self::Study(error) => return error.code(),
-            Self::InList { cause, .. } => return cause.code(),
-            Self::BadRequest { .. } => 601,
-            Self::NotFound { .. } | Self::NoSuchEvent { .. } => 602,
-            Self::UnknownId { .. } => 603,
-            Self::ReportError(_) => 604,
-            Self::Moved { .. } => 605,
-            Self::Store { .. } | Self::StoreHangs { .. } => 606,
-            Self::BadData { .. } | Self::ForeignData { .. } => 607,
-            Self::Archived { .. } => 608,
-            Self::KeyReused { .. } => 609,
-            Self::NoToken => 610,
-            Self::CannotListen { .. } => 611,
-            Self::TooMuch { .. } => 612,
-            Self::NoAnswer { .. } => 613,
-            Self::KeyInUse { .. } => 614,
-            Self::Internal { .. } => 615,
-            Self::NotAllowed { .. } => 616,
-            Self::Contradiction { .. } => 617,
-            Self::NotPermitted { .. } => 618,
-            Self::Unprotected { .. } => 619,
-            Self::InUse { .. } => 620,
-            Self::Conflict => 621,
-            Self::TooSlow { .. } => 622,
-            Self::TooOften { .. } => 623,
-            Self::BadCertificate { .. } => 624,
-            Self::BadCollector { .. } => 625,
-            Self::BadBasemap { .. } => 626,
-            Self::ForeignPage { .. } => 627,
-            Self::BadDatabase => 628,
-            Self::NameTaken { .. } => 629,
-            Self::PolicyInUse { .. } => 630,
-            Self::OtherLog { .. } => 631,
-        })
-    }
-
-    fn hint(&self) -> Option<&str> {
-        match self {
-            Self::Core(error) => error.hint(),
-            Self::Study(error) => error.hint(),
-            Self::InList { cause, .. } => cause.hint(),
-            Self::Moved { .. } => Some("read the day again, and decide anew"),
-            Self::ReportError(_) => Some("if it is so in reality, report first what led there"),
-            Self::NoSuchEvent { .. } | Self::OtherLog { .. } => {
-                Some("the day may have been put back from a copy: read its state again")
-            }
-            Self::NotFound { what: "policy", .. } => Some(
-                "GET /v1/policies lists them; PUT /v1/policies/NAME keeps weights under a name",
-            ),
-            Self::NotFound { what: "network", .. } => {
-                Some("GET /v1/networks lists them; PUT /v1/networks/NAME keeps a network file")
-            }
-            Self::Archived { .. } => Some("POST /v1/days/DAY/unarchive opens it again"),
-            Self::KeyReused { .. } => Some("use a new Idempotency-Key for each request"),
-            Self::BadData { .. } => Some("`vertifleet serve verify` names what is damaged"),
-            Self::ForeignData { .. } => Some(
-                "use the program that wrote it or a newer one, or name the right folder or file",
-            ),
-            Self::NoToken => Some("send it as `Authorization: Bearer vf_...`"),
-            Self::ForeignPage { .. } => Some(
-                "ask for 127.0.0.1 or localhost, or make a token: `vertifleet serve token make`",
-            ),
-            Self::Unprotected { .. } => Some(
-                "listen on 127.0.0.1, or name a certificate (--certificate, --key) or stand behind a proxy that speaks TLS (--behind-proxy), and make a token",
-            ),
-            _ => None,
-        }
-    }
-
-    fn exit(&self) -> Exit {
-        match self {
-            Self::Core(error) => error.exit(),
-            Self::Study(error) => error.exit(),
-            Self::Store { .. }
-            | Self::StoreHangs { .. }
-            | Self::Internal { .. }
-            | Self::CannotListen { .. }
-            | Self::NoAnswer { .. } => Exit::Failed,
-            _ => Exit::Input,
         }
     }
 }

@@ -17,7 +17,7 @@ use prometheus_client::metrics::info::Info;
 use prometheus_client::registry::Registry;
 use vertifleet_core::Code;
 
-use crate::days::now_ms;
+use crate::clock::now_ms;
 use crate::service::Service;
 
 /// A path with a method, as it stands in the description of the API.
@@ -114,7 +114,8 @@ impl Metrics {
     }
 }
 
-/// Measures a request. This is the one place where requests are counted, logged, and told to a collector.
+/// Measures a request. This is the one place where requests are counted, logged, and told to a
+/// collector.
 pub(crate) async fn measure(
     State(service): State<Arc<Service>>,
     request: Request,

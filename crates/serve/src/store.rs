@@ -1,7 +1,7 @@
 //! The store: days and their events in `SQLite` or `PostgreSQL`, through one set of statements.
 //!
-//! Events are rows that are only ever added. Each has a sum over itself and the row before, so that a row that is
-//! missing, changed or torn is found when a day is read.
+//! Events are rows that are only ever added. Each has a sum over itself and the row before, so that
+//! a row that is missing, changed or torn is found when a day is read.
 
 mod append;
 mod events;
@@ -26,7 +26,7 @@ pub(crate) use self::notices::DayNotice;
 pub(crate) use self::open::make_folder;
 use self::server::Server;
 pub use self::tokens::AuditRecord;
-use crate::days::now_ms;
+use crate::clock::now_ms;
 use crate::error::Error;
 use crate::mark::EventMark;
 
@@ -232,7 +232,8 @@ impl Store {
     /// Closes a day to writes or opens it again, if it is at the event that is expected.
     ///
     /// # Errors
-    /// Returns [`Error::NotFound`] if there is no such day, and [`Error::Moved`] if it is at another event.
+    /// Returns [`Error::NotFound`] if there is no such day, and [`Error::Moved`] if it is at
+    /// another event.
     pub(crate) async fn set_archived(
         &self,
         id: &str,
@@ -254,7 +255,8 @@ impl Store {
     /// Removes a day with its events, if it is at the event that is expected.
     ///
     /// # Errors
-    /// Returns [`Error::NotFound`] if there is no such day, and [`Error::Moved`] if it is at another event.
+    /// Returns [`Error::NotFound`] if there is no such day, and [`Error::Moved`] if it is at
+    /// another event.
     pub(crate) async fn delete(
         &self,
         id: &str,
@@ -322,14 +324,15 @@ impl Store {
     /// # Errors
     /// Returns [`Error::Store`] if it does not.
     pub(crate) async fn check(&self) -> Result<(), Error> {
-        // The same value as before, whichever it is: a newer program may have brought the store up to date by now.
+        // The same value as before, whichever it is: a newer program may have brought the store up
+        // to date by now.
         let update = query("UPDATE meta SET value = value WHERE name = 'version'");
         self.in_time(update.execute(&self.pool)).await.map(drop)
     }
 }
 
-/// Checks that a day was there, which a transaction has just changed, and that its latest event is the one that is expected. No
-/// event can be added until the transaction ends.
+/// Checks that a day was there, which a transaction has just changed, and that its latest event is
+/// the one that is expected. No event can be added until the transaction ends.
 fn check_at(id: &str, latest: Option<i64>, expected: Option<u64>) -> Result<(), Error> {
     let found = as_u64(latest.ok_or_else(|| Error::not_found("day", id))?);
     match expected {

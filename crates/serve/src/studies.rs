@@ -1,7 +1,9 @@
-//! Studies: comparisons of policies on many days of a network, played in the background while days are dispatched.
+//! Studies: comparisons of policies on many days of a network, played in the background while days
+//! are dispatched.
 //!
-//! One study plays at a time, on half of the cores at most and behind everything else, so that decisions stay quick. Studies
-//! live in memory: whatever one says follows from what it was asked for, so it can be had again after the service stopped.
+//! One study plays at a time, on half of the cores at most and behind everything else, so that
+//! decisions stay quick. Studies live in memory: whatever one says follows from what it was asked
+//! for, so it can be had again after the service stopped.
 
 mod asked;
 mod progress;
@@ -15,14 +17,16 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use serde::Serialize;
 use utoipa::ToSchema;
 use vertifleet_core::Stop;
-use vertifleet_study::replay::{self, ReplayedDay};
+use vertifleet_study::record::ReplayedDay;
+use vertifleet_study::replay;
 use vertifleet_study::{ComparisonReport, NetworkOrigin};
 
 pub(crate) use self::asked::{Asked, NewStudy, Split};
 pub(crate) use self::progress::StudyProgress;
 use self::progress::{Progress, Watched};
 pub(crate) use self::result::StudyResult;
-use crate::days::{Idempotency, now_ms};
+use crate::clock::now_ms;
+use crate::days::Idempotency;
 use crate::error::Error;
 use crate::problem::Problem;
 

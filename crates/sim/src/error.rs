@@ -1,6 +1,7 @@
 //! The reasons why a decision is refused. A refused decision changes nothing.
 
-/// The rule that a decision outside the mask breaks. Aircraft and vertiports are named by their ids.
+/// The rule that a decision outside the mask breaks. Aircraft and vertiports are named by their
+/// ids.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
     /// No aircraft has a decision left.
@@ -40,7 +41,8 @@ pub enum Refusal {
         /// The vertiport that was chosen.
         to: String,
     },
-    /// Every stand of the destination is taken or promised (Eq. 16), or every charger where chargers are counted apart.
+    /// Every stand of the destination is taken or promised (Eq. 16), or every charger where
+    /// chargers are counted apart.
     #[error(
         "aircraft {aircraft:?} cannot fly to vertiport {to:?}: every stand or charger is taken or promised to an aircraft on its way"
     )]

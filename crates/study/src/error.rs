@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use vertifleet_core::{Code, Coded, Exit};
 use vertifleet_policy::{PlayError, PolicyError};
 
-/// An expected error of this crate. Messages are fragments for people; [`Error::code`] is for programs and for the
-/// error index.
+/// An expected error of this crate. Messages are fragments for people; [`Error::code`] is for
+/// programs and for the error index.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A file that cannot be written (V102); the error is one of `vertifleet-core`.
@@ -17,7 +17,8 @@ pub enum Error {
     #[error(transparent)]
     Learn(#[from] vertifleet_learn::Error),
 
-    /// A day that is too large for a bound, or cannot be planned (V5xx); the error is one of `vertifleet-optimize`.
+    /// A day that is too large for a bound, or cannot be planned (V5xx); the error is one of
+    /// `vertifleet-optimize`.
     #[error(transparent)]
     Optimize(#[from] vertifleet_optimize::Error),
 
@@ -25,7 +26,9 @@ pub enum Error {
     #[error(transparent)]
     Trace(#[from] vertifleet_sim::TraceError),
 
-    /// V401. The folder of the report cannot be created. Cause: missing permissions, or a file in place of the folder.
+    /// V401 report folder cannot be made. The folder of the report cannot be made: missing rights,
+    /// or a file where the folder should be.
+    ///
     /// Fix: name another folder.
     #[error("{}: cannot make the folder of the report: {cause}", path.display())]
     CannotMakeFolder {
@@ -35,7 +38,9 @@ pub enum Error {
         cause: std::io::Error,
     },
 
-    /// V402. There is nothing to compare. Cause: no policy or no day. Fix: name at least one policy and one day.
+    /// V402 nothing to compare. A comparison has no policy or no day.
+    ///
+    /// Fix: name at least one policy and one day.
     #[error("nothing to compare: {policies} policies on {days} days")]
     Empty {
         /// Number of policies.
@@ -43,8 +48,11 @@ pub enum Error {
         /// Number of days.
         days: usize,
     },
-    /// V403. Two policies did not play the same days in the same order, so their results cannot be paired. Cause:
-    /// records of different runs were mixed. Fix: run all policies in one comparison.
+    /// V403 policies on different days. Two policies did not meet the same days in the same order,
+    /// so their results cannot be paired: records of different runs were mixed. The program itself
+    /// never does this.
+    ///
+    /// Fix: run all policies in one comparison.
     #[error(
         "policy {policy:?}, day {position}: found {found}, but {first_policy:?} has {expected}"
     )]
@@ -60,14 +68,19 @@ pub enum Error {
         /// The day expected there.
         expected: String,
     },
-    /// V404. Two policies of one comparison have the same name. Cause: a policy was named twice. Fix: name each once.
+    /// V404 policy named twice. Two policies of one comparison have the same name.
+    ///
+    /// Fix: name each policy once. Give a second model of the same kind another name: `--policies
+    /// gcaps,mine --model mine=PATH`.
     #[error("policy {name:?} is named twice")]
     DuplicatePolicy {
         /// The name that two policies have.
         name: String,
     },
-    /// V405. A result is not a finite number. Cause: a policy or a scenario with values that no real day has. Fix:
-    /// check the scenario; if it is sound, report the day as a defect.
+    /// V405 result that is no number. A result is not a finite number, because a scenario has
+    /// values far beyond those of any real day.
+    ///
+    /// Fix: check the scenario. If its values are plausible, report the day as a defect.
     #[error("policy {policy:?}, day {day:?}: {member} must be a finite number, found {value}")]
     NotFinite {
         /// The name of the policy.
@@ -80,9 +93,13 @@ pub enum Error {
         value: f64,
     },
 
-    /// V406. A policy could not play a day to its end. Cause: a replay of another day's trace, or a policy that made a
-    /// choice that is not feasible. Fix: replay a trace only on its own day; let a function of your own choose where
-    /// the mask is 1; report any other policy as a defect.
+    /// V406 policy cannot play the day. A policy could not play a day to its end. With `replay`,
+    /// the trace is of another scenario, or it stops before the day does. Any other policy made a
+    /// choice that is not feasible.
+    ///
+    /// Fix: replay a trace with the scenario that it was made from. If the policy is a function of
+    /// your own, let it choose a vertiport where `action_mask` is 1. Report any other policy as a
+    /// defect.
     #[error("policy {policy:?} cannot play {day}: {cause}")]
     Stuck {
         /// The name of the policy.
@@ -93,8 +110,12 @@ pub enum Error {
         cause: PlayError,
     },
 
-    /// V407. The request names policies and models that do not go together. Cause and fix are in the message and its
-    /// hint.
+    /// V407 policies and models that do not go together. A model is given for a policy that takes
+    /// none, for one that does not take part, twice for one name, or of another kind than its name
+    /// says; or the name of a policy is not understood. The message and the hint say which of these
+    /// it is.
+    ///
+    /// Fix: follow the hint.
     #[error("{rule}")]
     Asked {
         /// The rule that is broken.
@@ -103,27 +124,36 @@ pub enum Error {
         hint: &'static str,
     },
 
-    /// V408. The study was stopped before it was done. Nothing was written.
+    /// The study was stopped before it was done. Nothing was written.
     #[error("stopped before all days were played")]
     Stopped,
 
-    /// V409. Parts of a study do not go together. Cause: they belong to different comparisons, or days are missing
-    /// between them. Fix: join all parts of one comparison, in the order of their days.
+    /// V409 parts of different studies. Parts of a comparison that were played separately belong to
+    /// different networks or policies, or days are missing between them.
+    ///
+    /// Fix: join all parts of one comparison, in the order of their days.
     #[error("the parts do not go together: {rule}")]
     PartsDiffer {
         /// The rule that is broken.
         rule: String,
     },
 
-    /// V410. The user's own days cannot be compared. Cause: there are none, they have different vertiports, or two
-    /// have the same name. Fix: compare days of one network, each with a `name` of its own.
+    /// V410 days that do not go together. Days from files cannot be compared (`compare
+    /// --days-from`), because there are no days, they have different vertiports, or two of them
+    /// have the same `name`.
+    ///
+    /// Fix: compare days of one network: the same vertiports in the same order, and a different
+    /// name for each day.
     #[error("the days do not go together: {rule}")]
     DaysDiffer {
         /// The rule that is broken.
         rule: String,
     },
 
-    /// V411. No suite has this name. Cause: a typing error. Fix: give one of the names that the message lists.
+    /// V411 no such suite. `evaluate` was asked for a suite of a name that no suite has, or a
+    /// result file names one.
+    ///
+    /// Fix: give one of the names that the message lists.
     #[error("there is no suite {name:?}: known are {known}")]
     UnknownSuite {
         /// The name that was asked for.
@@ -134,9 +164,12 @@ pub enum Error {
         meant: Option<String>,
     },
 
-    /// V412. A day of a suite is drawn otherwise than when the suite was frozen, so results would not compare. Cause:
-    /// a changed build, in which a network or the way in which days are drawn differs. Fix: use a release, or freeze
-    /// the suites of the changed build with `make suites` and name them otherwise.
+    /// V412 a suite that is no longer what was frozen. A day of a suite is drawn otherwise than it
+    /// was when the suite was frozen, so results would not compare with those of others. This build
+    /// has another network of that name, or another way of drawing days.
+    ///
+    /// Fix: use a release. In a changed build of your own, freeze the suites anew with `make
+    /// suites`, and do not publish results under their names.
     #[error("suite {suite:?} is no longer what was frozen: {day}")]
     SuiteChanged {
         /// The name of the suite.
@@ -145,8 +178,10 @@ pub enum Error {
         day: String,
     },
 
-    /// V413. A file is no result of `vertifleet evaluate`. Cause: another file, one of a newer version, or one that
-    /// was damaged. Fix: name a file that `vertifleet evaluate --results` wrote.
+    /// V413 not a result. `evaluate --verify` was given a file that is not a result of an
+    /// evaluation, or one that was damaged.
+    ///
+    /// Fix: name a file that `vertifleet evaluate --results` or `Evaluation.save` wrote.
     #[error("{origin}: not a result of an evaluation: {rule}")]
     NotAResult {
         /// The path of the file.
@@ -155,15 +190,21 @@ pub enum Error {
         rule: String,
     },
 
-    /// V414. The folder, or the journal of a sweep in Python, holds another study: with other settings, days, policies, weights
-    /// or another version of the program. Fix: name another one, or replace the study with `--force`.
+    /// V414 folder of another study. The folder of `--out` holds a sweep, or a search for a design,
+    /// with other settings, days, policies or weights, or one of another version of the program; or
+    /// the `journal` of a sweep in Python does. Its results would not go together with those of
+    /// this study.
+    ///
+    /// Fix: name another folder or file, or replace that study: with `--force`, or, in Python, by
+    /// removing the journal.
     #[error("{}: belongs to another study", path.display())]
     OtherStudy {
         /// The journal of the other study.
         path: PathBuf,
     },
 
-    /// V307. No policy has this name. Cause: a typing error. Fix: give one of the names that the message lists.
+    /// No policy has this name. Cause: a typing error. Fix: give one of the names that the
+    /// message lists.
     #[error("there is no policy {name:?}: known are {known}")]
     UnknownPolicy {
         /// The name that was asked for.
@@ -184,7 +225,8 @@ impl Error {
         }
     }
 
-    /// Whether a policy cannot play some days although nothing is wrong with it: its weights belong to another network.
+    /// Whether a policy cannot play some days although nothing is wrong with it: its weights belong
+    /// to another network.
     pub(crate) fn is_misfit(&self) -> bool {
         use vertifleet_learn::Error as Learn;
         matches!(self, Self::Learn(Learn::NotShipped { .. } | Learn::WrongNetwork { .. }))

@@ -1,16 +1,17 @@
 //! The records of a comparison, one for every policy and day, before any statistics.
 //!
-//! They are plain numbers, so the code that uses them (statistics, figures, report) can be tested without a
-//! simulation. Days are in the same order for every policy, which makes the tests paired.
+//! They are plain numbers, so the code that uses them (statistics, figures, report) can be tested
+//! without a simulation. Days are in the same order for every policy, which makes the tests paired.
+
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use vertifleet_core::{Purpose, VertiportIx};
+use vertifleet_core::{Purpose, Scenario, VertiportIx};
 use vertifleet_optimize::gap;
-use vertifleet_sim::{DayNumber, DayTotals};
+use vertifleet_sim::{DayNumber, DayTotals, Trace};
 
 use crate::error::Error;
 use crate::origin::NetworkOrigin;
-use crate::replay::ReplayedDay;
 use crate::sees::Sees;
 use crate::statistics::Estimate;
 
@@ -26,21 +27,23 @@ pub struct DayRecord {
     pub totals: DayTotals,
     /// The day's upper bound in dollars, if it was asked for.
     pub upper_bound_usd: Option<f64>,
-    /// The vertiport that was chosen at each decision, in order; empty if choices were not to be kept.
+    /// The vertiport that was chosen at each decision, in order; empty if choices were not to be
+    /// kept.
     #[serde(skip)]
     pub choices: Vec<VertiportIx>,
 }
 
 impl DayRecord {
-    /// Operating profit as a share of its upper bound, if the day has one: both before the costs of aircraft and sites, which
-    /// no decision changes. The rest to 1 is the [`gap`]; where nothing can be earned, it is 1 without a loss and 0 with one.
+    /// Operating profit as a share of its upper bound, if the day has one: both before the costs of
+    /// aircraft and sites, which no decision changes. The rest to 1 is the [`gap`]; where nothing
+    /// can be earned, it is 1 without a loss and 0 with one.
     pub fn bound_share(&self) -> Option<f64> {
         self.upper_bound_usd.map(|bound_usd| bound_share(&self.totals, bound_usd))
     }
 }
 
-/// Operating profit as a share of its upper bound, as [`DayRecord::bound_share`] defines it. `bound_usd` is that of the
-/// profit.
+/// Operating profit as a share of its upper bound, as [`DayRecord::bound_share`] defines it.
+/// `bound_usd` is that of the profit.
 pub(crate) fn bound_share(totals: &DayTotals, bound_usd: f64) -> f64 {
     1.0 - gap(bound_usd + totals.fixed_cost_usd(), totals.operating_profit_usd())
 }
@@ -75,8 +78,8 @@ pub struct PolicyRecord {
     pub weights_sha256: Option<String>,
     /// One record for each day, in the study's order of days.
     pub days: Vec<DayRecord>,
-    /// The time that one decision of this policy takes; `None` for a reference, which planned each day as a
-    /// whole with the day known.
+    /// The time that one decision of this policy takes; `None` for a reference, which planned each
+    /// day as a whole with the day known.
     pub decision_ns: Option<LatencySummary>,
 }
 
@@ -94,16 +97,17 @@ pub struct LearningCurve {
 pub struct ValidationCurves {
     /// The name of the policy.
     pub name: String,
-    /// The runs, beginning with the one whose weights play. Each point has the decisions learned from and the mean
-    /// reward on the validation days at that point, in order of decisions. No run is empty.
+    /// The runs, beginning with the one whose weights play. Each point has the decisions learned
+    /// from and the mean reward on the validation days at that point, in order of decisions. No run
+    /// is empty.
     pub runs: Vec<Vec<(u64, f64)>>,
 }
 
 /// The records of many policies on the same days.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ComparisonRecords {
-    /// The name of the network that the days were drawn from, or that the user's own days share; if they share none,
-    /// where they came from.
+    /// The name of the network that the days were drawn from, or that the user's own days share; if
+    /// they share none, where they came from.
     pub network: String,
     /// Whether that network is a shipped one.
     pub network_origin: NetworkOrigin,
@@ -120,15 +124,15 @@ pub struct ComparisonRecords {
     pub bound_step_s: Option<u32>,
     /// The command line of the study.
     pub command: String,
-    /// The record of every policy. No two have the same name, which [`Selection`](crate::competitor::Selection)
-    /// ensures.
+    /// The record of every policy. No two have the same name, which
+    /// [`Selection`](crate::competitor::Selection) ensures.
     pub policies: Vec<PolicyRecord>,
     /// The learning curves on the training days of the policies that have one; may be empty.
     pub curves: Vec<LearningCurve>,
     /// The learning curves on the validation days of the policies that were trained; may be empty.
     pub trainings: Vec<ValidationCurves>,
-    /// The first days and what every policy did on them, for the report; they do not go into files and to other
-    /// processes.
+    /// The first days and what every policy did on them, for the report; they do not go into files
+    /// and to other processes.
     #[serde(skip)]
     pub replayed: Vec<ReplayedDay>,
 }
@@ -181,6 +185,26 @@ fn check_finite(policy: &str, day: &DayRecord) -> Result<(), Error> {
             Err(Error::NotFinite { policy: policy.to_owned(), day: day.day.clone(), member, value })
         }
     }
+}
+
+/// A day, and what policies did on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReplayedDay {
+    /// The day.
+    pub scenario: Arc<Scenario>,
+    /// What each policy did.
+    pub plays: Vec<Play>,
+}
+
+/// What a policy did on a day.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Play {
+    /// The name of the policy.
+    pub policy: String,
+    /// Every decision.
+    pub trace: Trace,
+    /// The profit of the day, dollars.
+    pub profit_usd: f64,
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
-//! The replay of days as a page: what each policy did on them, on a map and along the day, in one HTML file that needs
-//! no other.
+//! The replay of days as a page: what each policy did on them, on a map and along the day, in one
+//! HTML file that needs no other.
 
 use std::sync::Arc;
 
@@ -8,36 +8,16 @@ use serde_json::value::RawValue;
 use vertifleet_core::{Scenario, VertiportIx};
 use vertifleet_sim::{Simulation, Trace, TraceRow};
 
-use crate::record::PolicyRecord;
+use crate::record::{Play, PolicyRecord, ReplayedDay};
 
 /// The most days that the replay of a comparison shows.
 pub(crate) const MOST_DAYS: usize = 3;
-/// Fewer days are shown if there would be more decisions than this on all of them: about 4 MiB of text. The first day
-/// is shown in any case.
+/// Fewer days are shown if there would be more decisions than this on all of them: about 4 MiB of
+/// text. The first day is shown in any case.
 const MOST_DECISIONS: usize = 60_000;
 
-/// A day, and what policies did on it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ReplayedDay {
-    /// The day.
-    pub scenario: Arc<Scenario>,
-    /// What each policy did.
-    pub plays: Vec<Play>,
-}
-
-/// What a policy did on a day.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Play {
-    /// The name of the policy.
-    pub policy: String,
-    /// Every decision.
-    pub trace: Trace,
-    /// The profit of the day, dollars.
-    pub profit_usd: f64,
-}
-
-/// The first days of a study whose choices were kept. The choices are taken out of the records, so that these are the
-/// same whatever is shown of them.
+/// The first days of a study whose choices were kept. The choices are taken out of the records, so
+/// that these are the same whatever is shown of them.
 pub(crate) fn replayed(days: &[Arc<Scenario>], policies: &mut [PolicyRecord]) -> Vec<ReplayedDay> {
     let mut decisions = 0;
     let mut is_shown = |position: usize| {

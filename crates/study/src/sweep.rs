@@ -1,10 +1,11 @@
-//! A sweep: the same days and policies under many settings of one network, to answer what a change of the network is
-//! worth.
+//! A sweep: the same days and policies under many settings of one network, to answer what a change
+//! of the network is worth.
 //!
-//! Every cell of the design is the network with some members of its file changed. All cells meet the same days: demand,
-//! delays, closures and start positions have the same random numbers wherever the change allows it (common random
-//! numbers), so differences between cells are far less noisy than the cells themselves. Finished cells are on the disk,
-//! and a sweep that is started again goes on where it ended.
+//! Every cell of the design is the network with some members of its file changed. All cells meet
+//! the same days: demand, delays, closures and start positions have the same random numbers
+//! wherever the change allows it (common random numbers), so differences between cells are far less
+//! noisy than the cells themselves. Finished cells are on the disk, and a sweep that is started
+//! again goes on where it ended.
 
 mod additive;
 mod cell;
@@ -41,10 +42,10 @@ use crate::report::{File, Records, is_figure, pictures};
 use crate::run::{BoundedDay, Kept, play_all};
 
 pub use cell::Cell;
+pub(crate) use design::format_value;
 pub use design::{Design, Factor, Levels, MOST_CELLS};
 pub use effects::{Effect, LevelEffect};
 pub use record::{CellRecord, Size};
-pub(crate) use summary::format_value;
 pub use summary::{CellResult, CellSummary, FORMAT, SweepReport};
 
 /// The name of the journal in the folder of a sweep.
@@ -85,8 +86,8 @@ pub struct SweepRequest<'a> {
     pub bound_step: Option<Step>,
 }
 
-/// The cells of a design, and the competitors that will play their days. Everything that can be checked beforehand has
-/// been checked.
+/// The cells of a design, and the competitors that will play their days. Everything that can be
+/// checked beforehand has been checked.
 pub struct Sweep {
     base: Network,
     factors: Vec<Factor>,
@@ -101,12 +102,12 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Makes the networks of all cells. A cell whose fleet has no place is left out; any other change that the format
-    /// refuses is an error.
+    /// Makes the networks of all cells. A cell whose fleet has no place is left out; any other
+    /// change that the format refuses is an error.
     ///
     /// # Errors
-    /// Returns an error if a factor leads nowhere or has a value that the format refuses, if there are too many cells,
-    /// if there is no such policy, or if a policy cannot play the days.
+    /// Returns an error if a factor leads nowhere or has a value that the format refuses, if there
+    /// are too many cells, if there is no such policy, or if a policy cannot play the days.
     pub fn new(request: SweepRequest<'_>) -> Result<Self, Error> {
         let SweepRequest { network, factors, design, selection, drawn, bound_step } = request;
         drawn.check()?;
@@ -148,7 +149,8 @@ impl Sweep {
         self.cells.iter().filter(|cell| cell.network.is_ok()).count()
     }
 
-    /// Whether the design has every combination of the values of its factors, each as often as any other.
+    /// Whether the design has every combination of the values of its factors, each as often as any
+    /// other.
     fn is_grid(&self) -> bool {
         let distinct =
             |texts: &mut dyn Iterator<Item = String>| texts.collect::<HashSet<_>>().len();
@@ -191,8 +193,8 @@ impl Sweep {
     /// Plays the days of a cell; `None` if the cell has no network.
     ///
     /// # Errors
-    /// Returns [`Error::Stopped`] soon after `stop` is requested, and an error if a day is too large for its bound or a
-    /// policy cannot play one to its end.
+    /// Returns [`Error::Stopped`] soon after `stop` is requested, and an error if a day is too
+    /// large for its bound or a policy cannot play one to its end.
     pub fn play(&self, cell: usize, stop: &Stop) -> Result<Option<CellRecord>, Error> {
         let Ok(network) = &self.cells[cell].network else { return Ok(None) };
         let days = self.drawn.draw(network, stop)?;
@@ -211,22 +213,25 @@ impl Sweep {
         }))
     }
 
-    /// Checks, before anything is played, that the sweep may be kept in this folder: there is none, it is empty, or it holds
-    /// a sweep, or `force` is given.
+    /// Checks, before anything is played, that the sweep may be kept in this folder: there is none,
+    /// it is empty, or it holds a sweep, or `force` is given.
     ///
     /// # Errors
-    /// Returns [`Error::Core`] for a folder that holds something else (V143) or is read-only (V144).
+    /// Returns [`Error::Core`] for a folder that holds something else (V143) or is read-only
+    /// (V144).
     pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
         Ok(check_folder(folder, &FOLDER, force)?)
     }
 
-    /// Plays all cells that the folder, which is made if it is not there, does not hold yet, and keeps each as soon as it is finished. `begin` is called
-    /// with the number of cells that were there and of all cells; the function that it returns is called after each
-    /// further one, from any thread. With `force`, another sweep in the folder is replaced.
+    /// Plays all cells that the folder, which is made if it is not there, does not hold yet, and
+    /// keeps each as soon as it is finished. `begin` is called with the number of cells that were
+    /// there and of all cells; the function that it returns is called after each further one, from
+    /// any thread. With `force`, another sweep in the folder is replaced.
     ///
     /// # Errors
-    /// Returns [`Error::CannotMakeFolder`], [`Error::OtherStudy`] if the folder holds another sweep, [`Error::Stopped`] soon after `stop` is
-    /// requested, and the errors of [`play`](Self::play). Cells that were finished are kept.
+    /// Returns [`Error::CannotMakeFolder`], [`Error::OtherStudy`] if the folder holds another
+    /// sweep, [`Error::Stopped`] soon after `stop` is requested, and the errors of
+    /// [`play`](Self::play). Cells that were finished are kept.
     pub fn run<Played: Fn() + Sync>(
         &self,
         folder: &Path,
@@ -281,8 +286,9 @@ pub struct SweepRecords<'a> {
 }
 
 impl SweepRecords<'_> {
-    /// Writes tables, figures and page into the folder of the sweep, each file whole or not at all, and the journal in
-    /// the order of the cells. The same sweep gives the same bytes, however often it was interrupted.
+    /// Writes tables, figures and page into the folder of the sweep, each file whole or not at all,
+    /// and the journal in the order of the cells. The same sweep gives the same bytes, however
+    /// often it was interrupted.
     ///
     /// # Errors
     /// Returns [`Error::Core`] (V102) if a file cannot be written.

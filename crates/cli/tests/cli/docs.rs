@@ -1,7 +1,7 @@
-//! Checks that the documentation is true: the error index, the links, the architecture page and the command reference
-//! must match the code and the folders.
+//! Checks that the documentation is true: the error index, the links, the architecture page and the
+//! command reference must match the code and the folders.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -90,22 +90,55 @@ fn codes_behind(text: &str, before: &str) -> Vec<String> {
     text.split(before).skip(1).filter_map(code).map(|digits| format!("V{digits}")).collect()
 }
 
+/// The entry of an error in the page of errors, from a comment `V104 title. Cause.`, an empty line
+/// and `Fix: ...`.
+fn entry(comment: &str) -> (String, String) {
+    let complain =
+        || panic!("not of the form `V104 title. Cause.`, empty line, `Fix: ...`: {comment}");
+    let (cause, fix) = comment.split_once("\n\nFix: ").unwrap_or_else(complain);
+    let (heading, cause) = cause.split_once(['.']).unwrap_or_else(complain);
+    let heading = heading.replace('\n', " ");
+    let mut fix = fix.trim_end().to_owned();
+    fix[..1].make_ascii_uppercase();
+    let cause = cause.trim_start();
+    (heading[..4].to_owned(), format!("## {heading}\n\n**Cause.** {cause}\n\n**Fix.** {fix}\n"))
+}
+
 #[test]
-fn every_error_code_has_an_entry_and_every_entry_a_code() {
-    let mut used = Names::new();
+fn the_page_of_errors_is_made_of_the_comments_in_the_code() {
+    let (mut used, mut entries) = (Names::new(), BTreeMap::new());
     let folders = ["crates", "python/src"].map(|folder| root().join(folder));
     for source in folders.iter().flat_map(|folder| files(folder, ".rs")) {
-        if source.components().any(|part| part.as_os_str() == "src") {
-            let source = text(source);
-            used.extend(codes_behind(&source, "Code("));
-            used.extend(codes_behind(&source, "    /// V"));
+        if source.components().all(|part| part.as_os_str() != "src") {
+            continue;
+        }
+        let source = text(source);
+        used.extend(codes_behind(&source, "Code("));
+        let lines = source.lines().map(|line| line.trim_start().strip_prefix("///"));
+        for comment in lines.collect::<Vec<_>>().split(Option::is_none) {
+            let lines = comment.iter().flatten().map(|line| line.strip_prefix(' ').unwrap_or(line));
+            let comment = lines.collect::<Vec<_>>().join("\n");
+            if comment.strip_prefix('V').and_then(code).is_some() {
+                let (code, entry) = entry(&comment);
+                assert!(entries.insert(code.clone(), entry).is_none(), "two comments of {code}");
+            }
         }
     }
-    let page = text("docs/src/reference/errors.md");
-    let entries: Vec<String> = codes_behind(&page, "\n## V");
-    assert!(entries.is_sorted_by(|one, next| one < next), "entries are in order, none twice");
     assert!(used.len() > 30, "the sources still write their codes in a way that this test finds");
-    assert_eq!(Names::from_iter(entries), used);
+    let commented: Names = entries.keys().cloned().collect();
+    assert!(used.is_subset(&commented), "without a comment: {:?}", used.difference(&commented));
+    let path = "docs/src/reference/errors.md";
+    let page = text(path);
+    let (head, _) = page.split_once("\n## V").expect("a page that begins by hand");
+    let entries: Vec<&str> = entries.values().map(String::as_str).collect();
+    let made = format!("{head}\n{}", entries.join("\n"));
+    if std::env::var_os("VERTIFLEET_UPDATE").is_some() {
+        fs::write(root().join(path), &made).expect("a page that can be written");
+    }
+    assert!(
+        page == made,
+        "{path} is not made of the comments: run this test with VERTIFLEET_UPDATE=1"
+    );
 }
 
 #[test]
@@ -196,7 +229,8 @@ fn long_flags(text: &str) -> Names {
     words.filter(|word| word.len() > 2 && word.starts_with("--")).map(str::to_owned).collect()
 }
 
-/// The flags that help lists. Their descriptions are left out, because they may mention other flags.
+/// The flags that help lists. Their descriptions are left out, because they may mention other
+/// flags.
 fn flags_in_help(help: &str) -> Names {
     let options = help.lines().filter(|line| line.trim_start().starts_with('-'));
     options

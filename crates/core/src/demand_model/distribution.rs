@@ -1,11 +1,12 @@
-//! How a pair's passengers of a period scatter around their mean, as a network file chooses. The draws are whole
-//! passengers, and yet their mean is exactly the mean that was asked for.
+//! How a pair's passengers of a period scatter around their mean, as a network file chooses. The
+//! draws are whole passengers, and yet their mean is exactly the mean that was asked for.
 
 use rand_chacha::ChaCha8Rng;
 use serde::Deserialize;
 
 use super::draws;
 use crate::limits;
+use crate::random::rounded_by_chance;
 use crate::{Error, limits::Limits};
 
 /// A distribution of whole passengers around any mean.
@@ -13,15 +14,16 @@ use crate::{Error, limits::Limits};
 pub(super) enum Distribution {
     /// Each passenger comes independently of the others, so the variance is the mean.
     Poisson,
-    /// Some days are busy and others quiet: a Poisson draw whose mean is a gamma draw. The variance is mean +
-    /// dispersion mean^2.
+    /// Some days are busy and others quiet: a Poisson draw whose mean is a gamma draw. The variance
+    /// is mean + dispersion mean^2.
     NegativeBinomial { dispersion: f64 },
-    /// A normal draw, raised to 0 where it is negative, then rounded up or down by chance so that the mean stays.
+    /// A normal draw, raised to 0 where it is negative, then rounded up or down by chance so that
+    /// the mean stays.
     Normal {
         /// Standard deviation as a share of the mean.
         noise: f64,
-        /// Centre of the normal draw, as a share of the mean. It is below 1 by just as much as raising negative draws
-        /// to 0 raises the mean.
+        /// Centre of the normal draw, as a share of the mean. It is below 1 by just as much as
+        /// raising negative draws to 0 raises the mean.
         centre: f64,
     },
 }
@@ -36,12 +38,13 @@ impl Distribution {
             Self::Poisson => draws::poisson(mean, random),
             Self::NegativeBinomial { dispersion } => {
                 let factor = dispersion * draws::gamma(1.0 / dispersion, random);
-                // `poisson` returns at most `MOST_PASSENGERS`, so this limit on its mean changes no draw.
+                // `poisson` returns at most `MOST_PASSENGERS`, so this limit on its mean changes no
+                // draw.
                 draws::poisson((mean * factor).min(10.0 * limits::MOST_PASSENGERS), random)
             }
             Self::Normal { noise, centre } => {
                 let drawn = mean * (centre + noise * draws::normal(random));
-                draws::rounded_by_chance(drawn, random)
+                rounded_by_chance(drawn, random)
             }
         }
     }
@@ -94,8 +97,9 @@ pub(super) struct RawDistribution {
 }
 
 impl RawDistribution {
-    /// Checks the members of `model` and returns the distribution that they choose. If none is named, `noise` means the
-    /// normal one, as it did before distributions had names, and no `noise` means the Poisson one.
+    /// Checks the members of `model` and returns the distribution that they choose. If none is
+    /// named, `noise` means the normal one, as it did before distributions had names, and no
+    /// `noise` means the Poisson one.
     pub(super) fn check(self, model: &str, origin: &str) -> Result<Distribution, Error> {
         let unnamed = if self.noise.is_some() { Name::Normal } else { Name::Poisson };
         let name = self.name.unwrap_or(unnamed);
@@ -134,7 +138,8 @@ impl RawDistribution {
 mod tests {
     use super::centre;
 
-    /// Integrates by the trapezium rule, which is independent of the closed form that `centre` solves.
+    /// Integrates by the trapezium rule, which is independent of the closed form that `centre`
+    /// solves.
     #[test]
     fn what_is_cut_off_at_zero_does_not_raise_the_mean() {
         for noise in [0.01, 0.1, 0.2, 0.3, 0.35, 0.4] {

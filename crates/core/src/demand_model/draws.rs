@@ -1,14 +1,14 @@
 //! Draws of whole passengers whose mean is exactly the mean asked for, however thin demand is.
 //!
-//! They are written out with the functions of `libm`. Apart from the standard normal, the distributions of `rand_distr`
-//! take logarithms from the system's library as soon as any crate of a build asks for that, and these logarithms differ
-//! between machines.
+//! They are written out with the functions of `libm`. Apart from the standard normal, the
+//! distributions of `rand_distr` take logarithms from the system's library as soon as any crate of
+//! a build asks for that, and these logarithms differ between machines.
 
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::disturbance_model::uniform;
 use crate::limits::MOST_PASSENGERS;
+use crate::random::uniform;
 
 /// From this mean on, Poisson draws are made by rejection; below it, by counting.
 const MANY: f64 = 10.0;
@@ -16,16 +16,6 @@ const MANY: f64 = 10.0;
 /// A standard normal draw.
 pub(super) fn normal(random: &mut ChaCha8Rng) -> f64 {
     StandardNormal.sample(random)
-}
-
-/// Rounds `passengers` up or down by chance, so that the mean is `passengers`. A negative number gives 0.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "not negative, and bounded"
-)]
-pub(crate) fn rounded_by_chance(passengers: f64, random: &mut ChaCha8Rng) -> u32 {
-    (passengers.clamp(0.0, MOST_PASSENGERS - 1.0) + uniform(random)) as u32
 }
 
 /// Draws from the Poisson distribution; at most `MOST_PASSENGERS`.
@@ -39,7 +29,8 @@ pub(super) fn poisson(mean: f64, random: &mut ChaCha8Rng) -> u32 {
     drawn.min(MOST_PASSENGERS) as u32
 }
 
-/// Counts arrivals until their exponential times pass the mean (Knuth), as a product of uniform draws.
+/// Counts arrivals until their exponential times pass the mean (Knuth), as a product of uniform
+/// draws.
 fn counted(mean: f64, random: &mut ChaCha8Rng) -> f64 {
     let enough = libm::exp(-mean);
     let mut product = uniform(random);
@@ -51,8 +42,8 @@ fn counted(mean: f64, random: &mut ChaCha8Rng) -> f64 {
     arrivals
 }
 
-/// Transformed rejection for means of 10 and more. Constants and names are those of Hörmann, "The transformed rejection
-/// method for generating Poisson random variables", 1993, algorithm PTRS.
+/// Transformed rejection for means of 10 and more. Constants and names are those of Hörmann, "The
+/// transformed rejection method for generating Poisson random variables", 1993, algorithm PTRS.
 #[expect(clippy::many_single_char_names, reason = "the names of the paper")]
 fn by_rejection(mean: f64, random: &mut ChaCha8Rng) -> f64 {
     let b = 0.931 + 2.53 * mean.sqrt();
@@ -77,8 +68,8 @@ fn by_rejection(mean: f64, random: &mut ChaCha8Rng) -> f64 {
     }
 }
 
-/// Draws from the gamma distribution of this shape and scale 1 (Marsaglia and Tsang, "A simple method for generating
-/// gamma variables", 2000; shapes below 1 by their boost).
+/// Draws from the gamma distribution of this shape and scale 1 (Marsaglia and Tsang, "A simple
+/// method for generating gamma variables", 2000; shapes below 1 by their boost).
 #[expect(clippy::many_single_char_names, reason = "the names of the paper")]
 pub(super) fn gamma(shape: f64, random: &mut ChaCha8Rng) -> f64 {
     if shape < 1.0 {
@@ -107,7 +98,8 @@ mod tests {
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
 
-    use super::{gamma, poisson, rounded_by_chance};
+    use super::{gamma, poisson};
+    use crate::random::rounded_by_chance;
 
     const DRAWS: u32 = 200_000;
 
@@ -130,8 +122,8 @@ mod tests {
         for asked in [1e-300, 0.05, 0.3, 1.0, 7.0, 9.99, 10.0, 25.0, 400.0, 1e5] {
             let (mean, variance) = moments(|random| f64::from(poisson(asked, random)));
             assert!((mean - asked).abs() <= allowed(asked), "{asked}: mean {mean}");
-            // The variance of a sample's variance: (fourth central moment - variance^2) / draws = (asked + 2 asked^2) /
-            // draws.
+            // The variance of a sample's variance: (fourth central moment - variance^2) / draws =
+            // (asked + 2 asked^2) / draws.
             let error = 4.0 * ((asked + 2.0 * asked * asked) / f64::from(DRAWS)).sqrt();
             assert!((variance - asked).abs() <= error, "{asked}: variance {variance}");
         }
@@ -139,7 +131,8 @@ mod tests {
         assert_eq!(mean, 0.0);
     }
 
-    /// Checks the chance of each count, and not only mean and variance, on both sides of the change of method.
+    /// Checks the chance of each count, and not only mean and variance, on both sides of the change
+    /// of method.
     #[test]
     fn poisson_counts_come_as_often_as_they_should() {
         for asked in [3.0, 12.0_f64] {

@@ -1,9 +1,10 @@
-//! Every expected error is provoked by the smallest change to a good file, with its code, message and hint.
+//! Every expected error is provoked by the smallest change to a good file, with its code, message
+//! and hint.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use vertifleet_core::{Code, Coded, Day, DaySeed, Error, Network, Scenario, error};
+use vertifleet_core::{Code, Coded, Day, DaySeed, Error, Network, Scenario};
 
 const SCENARIO: &str = include_str!("../data/small.json");
 const NETWORK: &str = include_str!("../data/small.toml");
@@ -367,9 +368,7 @@ fn every_code_can_be_provoked() {
     let far = changed(NETWORK, ("x_mi = 30.5", "x_mi = 3050"));
     let warnings = Network::from_toml(&far, "net.toml").expect("a network").warnings();
     codes.extend(warnings.iter().map(vertifleet_core::Warning::code));
-    let listed: BTreeSet<Code> = error::ALL.iter().map(|&(code, _)| code).collect();
-    assert_eq!(codes, listed);
-    assert_eq!(listed.len(), error::ALL.len(), "each code is listed once");
+    assert_eq!(codes, (101..=122).chain(130..=135).map(Code).collect());
 }
 
 #[test]

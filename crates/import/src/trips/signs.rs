@@ -1,10 +1,10 @@
-//! What is noticed while trip records are added, beside their sums: the first row that was dropped for each reason, and signs that
-//! records do not mean what they say.
+//! What is noticed while trip records are added, beside their sums: the first row that was dropped
+//! for each reason, and signs that records do not mean what they say.
 
 use super::tally::{REASONS, Record};
 use crate::cell::Cell;
+use crate::cell::without_controls;
 use crate::error::shortened;
-use crate::vertiports::without_controls;
 
 /// What a row says, for a person who looks it up.
 #[derive(Debug, Clone, Copy)]
@@ -48,7 +48,8 @@ pub(super) struct Signs {
     pub(super) instants: u64,
     /// The first time that cannot be read, and where it stands.
     pub(super) unreadable: Option<(Position, String)>,
-    /// Records whose ends would be near vertiports if latitude and longitude were exchanged, and are not as they are.
+    /// Records whose ends would be near vertiports if latitude and longitude were exchanged, and
+    /// are not as they are.
     pub(super) exchanged: u64,
     /// Records with a place that is not in degrees.
     pub(super) no_degrees: u64,

@@ -50,7 +50,7 @@ struct Progress {
 }
 
 /// What days brought that were played with the weights moved along a direction or against it.
-struct Played {
+struct DirectionScore {
     /// The sum over the days of profit over the [unit](day_unit_usd) of the day.
     score: f64,
     decisions: u64,
@@ -156,9 +156,9 @@ impl EvolutionRun {
         days: &[Arc<Scenario>],
         stop: &Stop,
         worked: &(dyn Fn(u64) + Sync),
-    ) -> Result<Vec<[Played; 2]>, Error> {
+    ) -> Result<Vec<[DirectionScore; 2]>, Error> {
         let units_usd: Vec<f64> = days.par_iter().map(day_unit_usd).collect();
-        let moved = |pair: u32, length: f32| -> Result<Played, Error> {
+        let moved = |pair: u32, length: f32| -> Result<DirectionScore, Error> {
             stop.check()?;
             let mut params = self.params.clone();
             Direction { seed, pair: pair.into() }.add_to(&mut params, length);
@@ -166,7 +166,7 @@ impl EvolutionRun {
             worked(days.len() as u64);
             let scores = totals.iter().zip(&units_usd).map(|(day, unit)| day.profit_usd / unit);
             let decisions = totals.iter().map(|day| u64::from(day.decisions)).sum();
-            Ok(Played { score: scores.sum(), decisions })
+            Ok(DirectionScore { score: scores.sum(), decisions })
         };
         (0..self.settings.pairs)
             .into_par_iter()

@@ -26,14 +26,14 @@ impl StartingPolicy {
 }
 
 /// A day that a policy has played.
-pub(super) struct Played {
+pub(super) struct PlayedDay {
     pub(super) policy: String,
     pub(super) trace: Trace,
     pub(super) profit_usd: f64,
 }
 
-/// A day that one policy plays until its end, or until `go_on`, called after each decision with the number of decisions
-/// so far, returns `false`.
+/// A day that one policy plays until its end, or until `go_on`, called after each decision with the
+/// number of decisions so far, returns `false`.
 struct Begun {
     simulation: Simulation,
     trace: Trace,
@@ -65,39 +65,41 @@ impl Begun {
     }
 
     /// The day, if the policy has reached its end.
-    fn whole(self, policy: &str) -> Option<Played> {
+    fn whole(self, policy: &str) -> Option<PlayedDay> {
         let profit_usd = self.simulation.ledger().profit_usd();
-        self.is_over.then(|| Played { policy: policy.to_owned(), trace: self.trace, profit_usd })
+        self.is_over.then(|| PlayedDay { policy: policy.to_owned(), trace: self.trace, profit_usd })
     }
 
     /// The day, with the rest of it decided by greedy.
-    fn finished(mut self, policy: &str) -> Played {
+    fn finished(mut self, policy: &str) -> PlayedDay {
         play(&mut self.simulation, &mut Greedy, |row| self.trace.rows.push(*row)).expect(ANSWERS);
         let profit_usd = self.simulation.ledger().profit_usd();
-        Played { policy: policy.to_owned(), trace: self.trace, profit_usd }
+        PlayedDay { policy: policy.to_owned(), trace: self.trace, profit_usd }
     }
 }
 
 const ANSWERS: &str = "these policies always answer, and from the mask";
 
-/// The best day of several policies: greedy, the prices, `more`, the other rules that need no learning, and the rolling
-/// horizon.
+/// The best day of several policies: greedy, the prices, `more`, the other rules that need no
+/// learning, and the rolling horizon.
 ///
-/// `go_on` is called with the best profit so far in dollars, and while a day is being played, with the share of it that
-/// is over, in decisions of greedy's day. If it returns `false`, that day is left out; before a day begins, all
-/// following ones are too. Greedy's day is always played. The prices decide for as long as there is any time, and
-/// greedy for the rest of their day: on a large network with a short limit, no other policy gets this far.
+/// `go_on` is called with the best profit so far in dollars, and while a day is being played, with
+/// the share of it that is over, in decisions of greedy's day. If it returns `false`, that day is
+/// left out; before a day begins, all following ones are too. Greedy's day is always played. The
+/// prices decide for as long as there is any time, and greedy for the rest of their day: on a large
+/// network with a short limit, no other policy gets this far.
 pub(super) fn best_policy(
     scenario: &Arc<Scenario>,
     more: Vec<StartingPolicy>,
     go_on: &mut dyn FnMut(f64, Option<f64>) -> bool,
-) -> Played {
+) -> PlayedDay {
     let mut best = Begun::by(&mut Greedy, scenario, &mut |_| true).finished("greedy");
     if !go_on(best.profit_usd, None) {
         return best;
     }
     let decisions = best.trace.rows.len().max(1) as f64;
-    // Each decision is reported as the last one, so that the day continues until there is no time at all.
+    // Each decision is reported as the last one, so that the day continues until there is no time
+    // at all.
     let priced = Begun::by(&mut BidPricePolicy::default(), scenario, &mut |_| {
         go_on(best.profit_usd, Some(1.0))
     });
@@ -120,16 +122,17 @@ pub(super) fn best_policy(
     best
 }
 
-/// A day of the rolling horizon with more roll-outs, or `None` if `go_on`, called after each decision, returns `false`.
+/// A day of the rolling horizon with more roll-outs, or `None` if `go_on`, called after each
+/// decision, returns `false`.
 pub(super) fn rolled_thoroughly(
     scenario: &Arc<Scenario>,
     go_on: &mut dyn FnMut() -> bool,
-) -> Option<Played> {
+) -> Option<PlayedDay> {
     Begun::by(&mut Rolling::thorough(), scenario, &mut |_| go_on()).whole("rolling")
 }
 
 /// The day that earns more; of equals, the first.
-fn better(one: Played, other: Played) -> Played {
+fn better(one: PlayedDay, other: PlayedDay) -> PlayedDay {
     if other.profit_usd > one.profit_usd { other } else { one }
 }
 

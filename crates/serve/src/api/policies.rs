@@ -11,7 +11,7 @@ use vertifleet_core::Stop;
 
 use super::answer::json;
 use super::extract::{Named, Sender, Upload};
-use crate::days::now_ms;
+use crate::clock::now_ms;
 use crate::error::Error;
 use crate::policies::{self, PolicyInfo, WeightsInfo};
 use crate::service::Service;

@@ -1,4 +1,5 @@
-//! Expected errors of reading and writing traces, V204 to V208. The error index is written from the comments here.
+//! Expected errors of reading and writing traces, V204 to V208. The error index is written from the
+//! comments here.
 
 use vertifleet_core::{Code, Coded, Exit};
 
@@ -9,8 +10,10 @@ pub enum TraceError {
     #[error(transparent)]
     Core(#[from] vertifleet_core::Error),
 
-    /// V204. The file has more rows than any day has decisions (4 million). Fix: check that it is the right file, and
-    /// that it holds one day only.
+    /// V204 trace with too many rows. The file has more rows than any day has decisions (4
+    /// million).
+    ///
+    /// Fix: check that it is the right file, and that it holds one day only.
     #[error("{origin}: line {line}: a trace has at most {limit} rows")]
     TooManyRows {
         /// The path.
@@ -21,8 +24,10 @@ pub enum TraceError {
         limit: usize,
     },
 
-    /// V205. The first line is not the header of a trace: the file is something else, or its columns were renamed or
-    /// moved. Fix: give the columns the names and the order that the message states.
+    /// V205 not the header of a trace. The first line is not the header of a trace: the file is
+    /// something else, or its columns were renamed or moved.
+    ///
+    /// Fix: give the columns the names and the order that the message states.
     #[error("{origin}: line 1: the header must be {expected:?}, found {found:?}")]
     WrongHeader {
         /// The path.
@@ -33,8 +38,11 @@ pub enum TraceError {
         found: String,
     },
 
-    /// V206. A row does not have one value for each column. Fix: look for a missing or doubled comma, or for a quote
-    /// that is never closed, in the line that the message names.
+    /// V206 row with too few or too many values. A row does not have one value for each column.
+    ///
+    /// Fix: look for a missing or doubled comma, or for a quote that is never closed, in the line
+    /// that the message names. An id that contains a comma or a quote must be put in quotes, with
+    /// its own quotes doubled.
     #[error("{origin}: line {line}: a row must have {expected} values, found {found}")]
     WrongWidth {
         /// The path.
@@ -47,8 +55,10 @@ pub enum TraceError {
         found: usize,
     },
 
-    /// V207. A row names an aircraft or a vertiport that the scenario does not have. Fix: read the trace with the
-    /// scenario that it was made from, or correct the id.
+    /// V207 aircraft or vertiport unknown to the scenario. A row names an aircraft or a vertiport
+    /// that the scenario does not have.
+    ///
+    /// Fix: read the trace with the scenario that it was made from, or correct the id.
     #[error("{origin}: line {line}: {column} {found:?} is not among the scenario's {list}")]
     UnknownId {
         /// The path.
@@ -63,8 +73,11 @@ pub enum TraceError {
         list: &'static str,
     },
 
-    /// V208. A value is not what its column holds: a time that is not `HH:MM:SS`, a number of passengers that is not
-    /// whole, an amount that is negative or not finite. Fix: correct the value that the message names.
+    /// V208 value that its column cannot hold. A value is not what its column holds: a time that is
+    /// not `HH:MM:SS`, a number of passengers that is not whole, an amount that is negative or not
+    /// finite.
+    ///
+    /// Fix: correct the value that the message names.
     #[error("{origin}: line {line}: {column} must be {rule}, found {found:?}")]
     WrongValue {
         /// The path.
@@ -78,17 +91,6 @@ pub enum TraceError {
         /// The value, cut short if it is long.
         found: String,
     },
-}
-
-impl TraceError {
-    /// Every code of a trace with a title, in order. The documentation is checked against this list.
-    pub const ALL: &[(Code, &str)] = &[
-        (Code(204), "trace with too many rows"),
-        (Code(205), "not the header of a trace"),
-        (Code(206), "row with too few or too many values"),
-        (Code(207), "aircraft or vertiport unknown to the scenario"),
-        (Code(208), "value that its column cannot hold"),
-    ];
 }
 
 impl Coded for TraceError {

@@ -1,4 +1,5 @@
-//! The page of a played day: the ledger, its pictures, all tables, and the replay, in one file that needs no other.
+//! The page of a played day: the ledger, its pictures, all tables, and the replay, in one file that
+//! needs no other.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -9,7 +10,8 @@ use vertifleet_picture::numbers::{dollars, grouped, typeset};
 use super::{Account, PAGE, table};
 use crate::network_overview::waits;
 use crate::page::{document, replay_frame};
-use crate::replay::{self, Play, ReplayedDay};
+use crate::record::{Play, ReplayedDay};
+use crate::replay;
 
 /// Most pairs on the page; JSON has all of them.
 const MOST_PAIRS: usize = 40;
@@ -201,7 +203,8 @@ fn rows_of(rows: &[Vec<String>]) -> Markup {
     }
 }
 
-/// A cell as it is set in type: numbers with a true minus sign, pairs with an arrow, ids as they are.
+/// A cell as it is set in type: numbers with a true minus sign, pairs with an arrow, ids as they
+/// are.
 fn shown(cell: &str) -> String {
     if cell.starts_with('-') { typeset(cell) } else { cell.replace("->", "→") }
 }

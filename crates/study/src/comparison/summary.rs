@@ -1,6 +1,8 @@
-//! The statistics of a comparison: `summary.json` and `--json` contain them, and table, figures and page show them.
+//! The statistics of a comparison: `summary.json` and `--json` contain them, and table, figures and
+//! page show them.
 //!
-//! Records become statistics only here. All presentation reads a [`ComparisonReport`] and computes nothing.
+//! Records become statistics only here. All presentation reads a [`ComparisonReport`] and computes
+//! nothing.
 
 use serde::Serialize;
 use vertifleet_core::Purpose;
@@ -9,10 +11,9 @@ use crate::error::Error;
 use crate::origin::NetworkOrigin;
 use crate::published::{self, PublishedResult};
 use crate::record::{
-    ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
-    check_records,
+    ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ReplayedDay,
+    ValidationCurves, check_records,
 };
-use crate::replay::ReplayedDay;
 use crate::sees::Sees;
 use crate::statistics::{BoxSummary, Estimate, PairedTest, mean};
 
@@ -48,8 +49,8 @@ pub struct ComparisonReport {
     pub policies: Vec<PolicySummary>,
     /// Every pair of policies once, in the order of `policies`.
     pub comparisons: Vec<PairedDifference>,
-    /// The published results to show beside these; empty except for days drawn from the network `paper` as it is
-    /// shipped.
+    /// The published results to show beside these; empty except for days drawn from the network
+    /// `paper` as it is shipped.
     pub published: &'static [PublishedResult],
     /// The results of the trainings of the learned policies.
     pub trainings: Vec<TrainingSummary>,
@@ -165,7 +166,8 @@ pub struct PolicySummary {
     /// Reward of each day, in the study's order of days.
     #[serde(skip)]
     pub daily_reward: Vec<f64>,
-    /// Share of the upper bound of each day, in the study's order of days; empty if bounds were not asked for.
+    /// Share of the upper bound of each day, in the study's order of days; empty if bounds were not
+    /// asked for.
     #[serde(skip)]
     pub daily_bound_share: Vec<f64>,
 }
@@ -199,8 +201,8 @@ impl ComparisonReport {
     /// Computes the statistics of a study.
     ///
     /// # Errors
-    /// Returns [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not those of policies
-    /// on the same days.
+    /// Returns [`Error::Empty`], [`Error::Unpaired`] or [`Error::NotFinite`] if the records are not
+    /// those of policies on the same days.
     pub fn of(study: &ComparisonRecords) -> Result<Self, Error> {
         check_records(&study.policies, study.days)?;
         let empty = || Error::Empty { policies: study.policies.len(), days: study.days };
@@ -263,12 +265,14 @@ impl ComparisonReport {
         super::table::html(self)
     }
 
-    /// Whether these days are like those of the paper, so that the figures correspond to the paper's.
+    /// Whether these days are like those of the paper, so that the figures correspond to the
+    /// paper's.
     pub(crate) fn is_of_the_paper(&self) -> bool {
         !self.published.is_empty()
     }
 
-    /// The policy with the highest mean profit. References are considered only when there are no other policies.
+    /// The policy with the highest mean profit. References are considered only when there are no
+    /// other policies.
     ///
     /// # Panics
     /// Never panics: a summary has at least one policy.
@@ -281,8 +285,8 @@ impl ComparisonReport {
         self.policies.iter().position(|policy| !policy.knows_the_day()).unwrap_or(0)
     }
 
-    /// The comparison that says most about the best policy: with `greedy`, or with the next best policy if `greedy` is
-    /// the best or was not run. `None` if no policy earns less than the best.
+    /// The comparison that says most about the best policy: with `greedy`, or with the next best
+    /// policy if `greedy` is the best or was not run. `None` if no policy earns less than the best.
     pub fn best_against_reference(&self) -> Option<&PairedDifference> {
         let best = self.best_position();
         let others =

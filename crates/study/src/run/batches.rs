@@ -1,5 +1,5 @@
-//! Plays many days side by side with a policy that is asked about all of them at once, which is how networks in Python
-//! decide fast.
+//! Plays many days side by side with a policy that is asked about all of them at once, which is how
+//! networks in Python decide fast.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -17,14 +17,14 @@ use crate::resolved_policy::ResolvedPolicy;
 const MOST: usize = 256;
 
 /// A day in progress.
-struct Played<'a> {
+struct DayInPlay<'a> {
     day: &'a BoundedDay,
     simulation: Simulation,
     choices: Vec<VertiportIx>,
     keeps_choices: bool,
 }
 
-impl<'a> Played<'a> {
+impl<'a> DayInPlay<'a> {
     fn begin(day: &'a BoundedDay, keeps_choices: bool) -> Self {
         let simulation = Simulation::new(Arc::clone(&day.scenario));
         Self { day, simulation, choices: Vec::new(), keeps_choices }
@@ -44,14 +44,14 @@ pub(super) fn play(
     let mut waiting = days.iter().enumerate();
     loop {
         let next = waiting.by_ref().take(MOST);
-        let mut batch: Vec<Played<'_>> =
-            next.map(|(position, day)| Played::begin(day, kept.has_choices(position))).collect();
+        let mut batch: Vec<DayInPlay<'_>> =
+            next.map(|(position, day)| DayInPlay::begin(day, kept.has_choices(position))).collect();
         if batch.is_empty() {
             break;
         }
         let mut built = policy.build();
         while step(name, built.as_mut(), &mut batch, stop, &mut nanoseconds)? {}
-        for Played { day, simulation, choices, .. } in batch {
+        for DayInPlay { day, simulation, choices, .. } in batch {
             records.push(record(day, &simulation, choices));
             played();
         }
@@ -63,7 +63,7 @@ pub(super) fn play(
 fn step(
     name: &str,
     policy: &mut dyn Policy,
-    batch: &mut [Played<'_>],
+    batch: &mut [DayInPlay<'_>],
     stop: &Stop,
     nanoseconds: &mut Vec<u64>,
 ) -> Result<bool, Error> {

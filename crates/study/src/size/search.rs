@@ -1,14 +1,17 @@
 //! The search for the best design.
 //!
-//! *Bounds first.* Bounds of a few designs make a ceiling (`ceiling.rs`) over all of them. It is made tighter where it is
-//! highest, by a level method (C. Lemaréchal, A. Nemirovskii, Y. Nesterov, *New variants of bundle methods*, Mathematical
-//! Programming 69, 1995), and says where good designs are.
+//! *Bounds first.* Bounds of a few designs make a ceiling (`ceiling.rs`) over all of them. It is
+//! made tighter where it is highest, by a level method (C. Lemaréchal, A. Nemirovskii, Y. Nesterov,
+//! *New variants of bundle methods*, Mathematical Programming 69, 1995), and says where good
+//! designs are.
 //!
-//! *Then days.* A policy plays the days of single designs: first of the best by the ceiling, then of designs around the best
-//! so far, from large steps to small ones (a pattern search: R. Hooke, T. Jeeves, Journal of the ACM 8, 1961). What a design
-//! will be found to earn is predicted from the slopes of the ceiling. A policy does not make of a further stand what the best
-//! schedule makes of it, so every design that is played corrects the slopes of what it changed (S. Kaczmarz, 1937). What is
-//! played next depends on the goal: `most.rs` looks for the highest value, `enough.rs` for the least cost of enough.
+//! *Then days.* A policy plays the days of single designs: first of the best by the ceiling, then
+//! of designs around the best so far, from large steps to small ones (a pattern search: R. Hooke,
+//! T. Jeeves, Journal of the ACM 8, 1961). What a design will be found to earn is predicted from
+//! the slopes of the ceiling. A policy does not make of a further stand what the best schedule
+//! makes of it, so every design that is played corrects the slopes of what it changed (S. Kaczmarz,
+//! 1937). What is played next depends on the goal: `most.rs` looks for the highest value,
+//! `enough.rs` for the least cost of enough.
 
 mod enough;
 mod most;
@@ -22,26 +25,28 @@ use crate::error::Error;
 
 /// The most bounds that the ceiling is made of before days are played.
 const MOST_BOUNDS: usize = 14;
-/// A step in one dimension is worth playing if it is predicted to be worse than the best by no more than this share, because
-/// what is predicted of a policy may be wrong by as much. Steps in two dimensions have to be predicted to be better.
+/// A step in one dimension is worth playing if it is predicted to be worse than the best by no more
+/// than this share, because what is predicted of a policy may be wrong by as much. Steps in two
+/// dimensions have to be predicted to be better.
 const WORTH_PLAYING: f64 = 0.05;
-/// As many designs in a row may be played in vain before the steps become smaller. With single steps, each dimension may be
-/// tried both ways.
+/// As many designs in a row may be played in vain before the steps become smaller. With single
+/// steps, each dimension may be tried both ways.
 const IN_VAIN: usize = 6;
 /// How much of what it was wrong by a design that was played corrects.
 const CORRECTED: f64 = 0.7;
 
 /// What the search asks about designs.
 pub(super) trait Solver {
-    /// Bounds what is wanted of all designs, near the truth with so many things above the lowest numbers.
+    /// Bounds what is wanted of all designs, near the truth with so many things above the lowest
+    /// numbers.
     fn bound(&mut self, above: &Design) -> Result<Cut, Error>;
     /// Plays the days of a design.
-    fn play(&mut self, design: &Design) -> Result<Played, Error>;
+    fn play(&mut self, design: &Design) -> Result<DesignMeans, Error>;
 }
 
 /// Means a day of a design that was played.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Played {
+pub(super) struct DesignMeans {
     pub(super) profit_usd: f64,
     /// Passengers carried.
     pub(super) carried: f64,
@@ -59,7 +64,7 @@ pub(super) struct Aim {
 
 impl Aim {
     /// What is bounded and wanted high: profit, or the number of passengers carried.
-    fn value(&self, played: Played) -> f64 {
+    fn value(&self, played: DesignMeans) -> f64 {
         if self.goal == Goal::MostProfit { played.profit_usd } else { played.carried }
     }
 
@@ -76,7 +81,8 @@ impl Aim {
 /// What the search found.
 pub(super) struct Found {
     pub(super) best: Design,
-    /// Whether the best design reaches what must be carried. If not, it is the one that carries most.
+    /// Whether the best design reaches what must be carried. If not, it is the one that carries
+    /// most.
     pub(super) reaches: bool,
     pub(super) ceiling: Ceiling,
     /// The designs that were played, in this order.
@@ -163,7 +169,8 @@ impl<'a, S: Solver> Search<'a, S> {
         self.played[from] + self.ceiling_at(to) - self.ceiling_at(from) + corrected
     }
 
-    /// The values that designs will be found to have, predicted from one that was played, as a ceiling with other slopes.
+    /// The values that designs will be found to have, predicted from one that was played, as a
+    /// ceiling with other slopes.
     fn expected(&self, from: &Design) -> Ceiling {
         let steps = self.space.dimensions.iter().map(|one| f64::from(one.step));
         let corrections = self.corrections.iter().zip(steps);
@@ -212,12 +219,14 @@ impl<'a, S: Solver> Search<'a, S> {
         self.aim.cost(&self.space.above(design))
     }
 
-    /// How good a design is that was played: its value, or, for [`Goal::Served`], less cost once it carries enough.
+    /// How good a design is that was played: its value, or, for [`Goal::Served`], less cost once it
+    /// carries enough.
     fn rank(&self, design: &Design) -> f64 {
         if self.is_enough(design) { 1e15 - self.cost(design) } else { self.played[design] }
     }
 
-    /// Whether the goal is a number of passengers and a design carries as many, so that only its cost matters.
+    /// Whether the goal is a number of passengers and a design carries as many, so that only its
+    /// cost matters.
     fn is_enough(&self, design: &Design) -> bool {
         matches!(self.aim.goal, Goal::Served(_)) && self.aim.reaches(self.played[design])
     }
@@ -239,7 +248,8 @@ impl<'a, S: Solver> Search<'a, S> {
             let least_lost = fewer.min_by(|&one, &other| slope(one).total_cmp(&slope(other)));
             let more = (0..design.len())
                 .filter(|&at| none == is_aircraft(at) && design[at] < space.dimensions[at].steps);
-            // An aircraft that is on the ground when the day begins needs a stand, whatever chargers there are.
+            // An aircraft that is on the ground when the day begins needs a stand, whatever
+            // chargers there are.
             let more = more
                 .min_by_key(|&at| matches!(space.dimensions[at].what, DimensionKind::Chargers(_)));
             match (least_lost, more) {
@@ -263,8 +273,8 @@ fn changes(from: &Design, to: &Design) -> Vec<f64> {
     from.iter().zip(to).map(|(&from, &to)| f64::from(to) - f64::from(from)).collect()
 }
 
-/// Designs that differ by `reach` steps in one dimension, or in two for which `is_pair` says so, from whether both count
-/// aircraft or both places, and whether both go the same way.
+/// Designs that differ by `reach` steps in one dimension, or in two for which `is_pair` says so,
+/// from whether both count aircraft or both places, and whether both go the same way.
 fn around(
     space: &Space,
     design: &Design,

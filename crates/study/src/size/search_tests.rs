@@ -6,13 +6,13 @@ use vertifleet_core::Network;
 
 use super::super::ceiling::Cut;
 use super::super::space::{Design, Space};
-use super::{Aim, Played, Solver, search};
+use super::{Aim, DesignMeans, Solver, search};
 use crate::Error;
 use crate::size::Goal;
 use crate::sweep::Factor;
 
-/// A world in which a fleet and two vertiports' stands bring less and less, and the policy has a share of what the bound
-/// allows that falls with the fleet.
+/// A world in which a fleet and two vertiports' stands bring less and less, and the policy has a
+/// share of what the bound allows that falls with the fleet.
 struct Concave {
     costs: Vec<f64>,
     played: BTreeSet<Design>,
@@ -69,9 +69,9 @@ impl Solver for World<'_> {
         Ok(Cut { constant: value - rise, slopes })
     }
 
-    fn play(&mut self, design: &Design) -> Result<Played, Error> {
+    fn play(&mut self, design: &Design) -> Result<DesignMeans, Error> {
         assert!(self.0.played.insert(design.clone()), "no design is played twice");
-        Ok(Played { profit_usd: self.0.profit_usd(design), carried: Concave::carried(design) })
+        Ok(DesignMeans { profit_usd: self.0.profit_usd(design), carried: Concave::carried(design) })
     }
 }
 

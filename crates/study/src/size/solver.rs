@@ -12,7 +12,7 @@ use super::Sizing;
 use super::ceiling::Cut;
 use super::goal::Goal;
 use super::journal::{Finding, Part};
-use super::search::{Played, Solver};
+use super::search::{DesignMeans, Solver};
 use super::space::{Design, Dimension, DimensionKind, Space};
 use crate::comparison::DrawnDays;
 use crate::error::Error;
@@ -69,7 +69,8 @@ impl<'a> KnownDesigns<'a> {
         &self.days[design]
     }
 
-    /// The numbers of the days of the search with the network file as it is, whether or not a design is the same.
+    /// The numbers of the days of the search with the network file as it is, whether or not a
+    /// design is the same.
     pub(super) fn days_as_it_is(&mut self) -> Result<&[DayTotals], Error> {
         // A design of no numbers changes nothing in the file.
         let as_it_is = Design::new();
@@ -127,7 +128,7 @@ impl Solver for KnownDesigns<'_> {
         Ok(self.bounds[above].clone())
     }
 
-    fn play(&mut self, design: &Design) -> Result<Played, Error> {
+    fn play(&mut self, design: &Design) -> Result<DesignMeans, Error> {
         if !self.days.contains_key(design) {
             let days = self.play_days(design, self.sizing.drawn)?;
             self.keep(design, Finding::Days(days))?;
@@ -136,15 +137,15 @@ impl Solver for KnownDesigns<'_> {
         let days = &self.days[design];
         let average =
             |number: fn(&DayTotals) -> f64| mean(&days.iter().map(number).collect::<Vec<f64>>());
-        Ok(Played {
+        Ok(DesignMeans {
             profit_usd: average(|day| day.profit_usd),
             carried: average(|day| day.passengers as f64),
         })
     }
 }
 
-/// The bound of the mean day as a function of how many there are of each thing above its lowest number, after fixed costs
-/// where profit is wanted.
+/// The bound of the mean day as a function of how many there are of each thing above its lowest
+/// number, after fixed costs where profit is wanted.
 fn cut_of(space: &Space, bound: &DesignBound, days: f64, after_costs: bool) -> Cut {
     let lowest: Design = vec![0; space.dimensions.len()];
     let counts = space.counts(&lowest);

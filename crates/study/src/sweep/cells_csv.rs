@@ -1,7 +1,7 @@
 //! `cells.csv`: one row for every cell and policy.
 
 use super::SweepReport;
-use super::summary::format_value;
+use super::design::format_value;
 use crate::statistics::Estimate;
 
 const TO_MEMORY: &str = "memory takes every row";

@@ -3,7 +3,7 @@
 use vertifleet_sim::{DayNumber, DayTotals};
 
 use super::SweepRecords;
-use super::summary::format_value;
+use super::design::format_value;
 
 const TO_MEMORY: &str = "memory takes every row";
 

@@ -1,8 +1,9 @@
-//! Which settings a sweep tries: the factors, the values of each, and how they are combined into cells.
+//! Which settings a sweep tries: the factors, the values of each, and how they are combined into
+//! cells.
 //!
-//! A grid has a cell for every combination of values. A Latin hypercube (McKay, Beckman and Conover, 1979) has as many
-//! cells as are asked for, whatever the number of factors: the range of each factor is cut into as many parts as there
-//! are cells, and each part is used once.
+//! A grid has a cell for every combination of values. A Latin hypercube (McKay, Beckman and
+//! Conover, 1979) has as many cells as are asked for, whatever the number of factors: the range of
+//! each factor is cut into as many parts as there are cells, and each part is used once.
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -18,7 +19,8 @@ pub const MOST_CELLS: usize = 10_000;
 /// A setting of the network that a sweep varies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factor {
-    /// The member of the network file, as `vertifleet_core::Network::changed` takes it: `fleet.0.count`.
+    /// The member of the network file, as `vertifleet_core::Network::changed` takes it:
+    /// `fleet.0.count`.
     pub path: String,
     /// What it may be.
     pub levels: Levels,
@@ -29,7 +31,8 @@ pub struct Factor {
 pub enum Levels {
     /// These values.
     List(Vec<Value>),
-    /// Any number from the first to the second; only whole ones if the third says so. For a Latin hypercube only.
+    /// Any number from the first to the second; only whole ones if the third says so. For a Latin
+    /// hypercube only.
     Range(f64, f64, bool),
 }
 
@@ -48,8 +51,9 @@ pub enum Design {
 }
 
 impl Factor {
-    /// Reads `PATH=VALUE,VALUE,...`, `PATH=LOW..HIGH/STEP` or, for a Latin hypercube, `PATH=LOW..HIGH`. A value that begins
-    /// with a bracket, a brace or a quote is JSON, and may hold commas and dots.
+    /// Reads `PATH=VALUE,VALUE,...`, `PATH=LOW..HIGH/STEP` or, for a Latin hypercube,
+    /// `PATH=LOW..HIGH`. A value that begins with a bracket, a brace or a quote is JSON, and may
+    /// hold commas and dots.
     ///
     /// # Errors
     /// Returns [`Error::Asked`] if the text has another form, or if a range is empty or endless.
@@ -110,7 +114,8 @@ fn plain(text: &str) -> Result<(Value, &str), String> {
     Ok((serde_json::from_str(value).unwrap_or_else(|_| Value::from(value)), after))
 }
 
-/// The range from `low` on; `rest` is its end, and perhaps a slash and a step. The error says what is wrong.
+/// The range from `low` on; `rest` is its end, and perhaps a slash and a step. The error says what
+/// is wrong.
 fn range(low: &str, rest: &str) -> Result<Levels, String> {
     let (high, step) = rest.split_once('/').map_or((rest, None), |(high, step)| (high, Some(step)));
     let whole = [low, high, step.unwrap_or("1")].iter().all(|one| one.parse::<i64>().is_ok());
@@ -155,8 +160,8 @@ impl Design {
     /// The settings of every cell, in the order of the factors.
     ///
     /// # Errors
-    /// Returns [`Error::Asked`] if there are no factors or too many cells, if a path comes twice, or if a grid has a
-    /// range without steps.
+    /// Returns [`Error::Asked`] if there are no factors or too many cells, if a path comes twice,
+    /// or if a grid has a range without steps.
     pub fn cells(self, factors: &[Factor]) -> Result<Vec<Vec<Value>>, Error> {
         let asked = |rule: String, hint| Err(Error::Asked { rule, hint });
         if factors.is_empty() {
@@ -227,6 +232,11 @@ fn latin_hypercube(factors: &[Factor], cells: usize, seed: u64) -> Vec<Vec<Value
         }
     }
     settings
+}
+
+/// A value as people write it: a text without quotes.
+pub(crate) fn format_value(value: &Value) -> String {
+    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
 #[cfg(test)]

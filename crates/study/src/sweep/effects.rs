@@ -1,13 +1,13 @@
-//! How profit follows each factor: the mean over all cells that have a value of the factor in common, like compared with
-//! like.
+//! How profit follows each factor: the mean over all cells that have a value of the factor in
+//! common, like compared with like.
 
 use serde::Serialize;
 use serde_json::Value;
 
 use super::Sweep;
 use super::additive::{level_means, plain_means};
+use super::design::format_value;
 use super::record::CellRecord;
-use super::summary::format_value;
 use crate::statistics::Estimate;
 
 /// A factor with more values than this is shown in groups of neighbouring values.
@@ -37,9 +37,10 @@ pub struct LevelEffect {
     pub value: Option<f64>,
     /// Number of cells.
     pub cells: usize,
-    /// Mean profit a day over these cells by policy, with its interval over the days; dollars. In a design without some
-    /// combinations of values, cells with one value differ from others in other settings too; then it is the mean that the
-    /// best sum of one effect for each setting gives (`additive.rs`).
+    /// Mean profit a day over these cells by policy, with its interval over the days; dollars. In a
+    /// design without some combinations of values, cells with one value differ from others in other
+    /// settings too; then it is the mean that the best sum of one effect for each setting gives
+    /// (`additive.rs`).
     pub profit_usd: Vec<Estimate>,
 }
 
@@ -128,8 +129,8 @@ fn value<'a>(sweep: &'a Sweep, factor: usize, record: &CellRecord) -> &'a Value 
     &sweep.cells[record.cell].settings[factor]
 }
 
-/// The positions of the records by their value of a factor, neighbouring values together where there are many, or where few
-/// cells have one value.
+/// The positions of the records by their value of a factor, neighbouring values together where
+/// there are many, or where few cells have one value.
 fn groups(sweep: &Sweep, factor: usize, records: &[&CellRecord], grid: bool) -> Vec<Vec<usize>> {
     let value = |at: usize| value(sweep, factor, records[at]);
     let mut sorted: Vec<usize> = (0..records.len()).collect();

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use vertifleet_picture::numbers::{counted, dollars, grouped, minutes, typeset};
 
-use super::summary::format_value;
+use super::design::format_value;
 use super::{CellSummary, SweepReport, headline};
 use crate::figure::Figure;
 use crate::page::{self, estimate};

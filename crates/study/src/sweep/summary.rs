@@ -1,11 +1,12 @@
-//! The statistics of a sweep: what every cell earns, how far it is from the best one, and which design is the cheapest of
-//! those that earn nearly as much.
+//! The statistics of a sweep: what every cell earns, how far it is from the best one, and which
+//! design is the cheapest of those that earn nearly as much.
 
 use serde::Serialize;
 use serde_json::Value;
 use vertifleet_optimize::Step;
 use vertifleet_sim::DayTotals;
 
+use super::design::format_value;
 use super::effects::{Effect, Effects};
 use super::record::{CellRecord, Size};
 use super::{Sweep, SweepRecords};
@@ -44,12 +45,14 @@ pub struct SweepReport {
     pub policies: Vec<String>,
     /// The number of the cell in which the first policy earns most.
     pub best: usize,
-    /// The number of the cheapest cell in which it earns at most 1 % less: the one with the lowest fixed cost, and among
-    /// equals with the fewest aircraft and then stands, and then the one in which it earns most.
+    /// The number of the cheapest cell in which it earns at most 1 % less: the one with the lowest
+    /// fixed cost, and among equals with the fewest aircraft and then stands, and then the one in
+    /// which it earns most.
     pub cheapest: usize,
     /// How the profit follows each factor.
     pub effects: Vec<Effect>,
-    /// Whether these are the effects of a sum that fits best, because some combinations of values were not played.
+    /// Whether these are the effects of a sum that fits best, because some combinations of values
+    /// were not played.
     pub effects_fitted: bool,
     /// Whether the design has every combination of values; if not, it is a Latin hypercube.
     pub is_grid: bool,
@@ -79,7 +82,8 @@ pub struct CellResult {
     pub policy: String,
     /// Profit, dollars.
     pub profit_usd: Estimate,
-    /// Profit less that of the same policy in the best cell on the same day, dollars; `None` in the best cell.
+    /// Profit less that of the same policy in the best cell on the same day, dollars; `None` in the
+    /// best cell.
     pub minus_best_usd: Option<Estimate>,
     /// Profit as a share of the day's upper bound, where bounds were asked for.
     pub bound_share: Option<Estimate>,
@@ -187,7 +191,8 @@ impl SweepReport {
         self.effects.iter().filter(|effect| effect.levels.len() > 1)
     }
 
-    /// A sentence about how effects were found, for captions, with a blank before it; nothing where they are plain means.
+    /// A sentence about how effects were found, for captions, with a blank before it; nothing where
+    /// they are plain means.
     pub fn how_effects_were_found(&self) -> &'static str {
         if self.effects_fitted {
             " Not every combination of settings was played, so that means are those of the sum of one effect for each setting that \
@@ -197,8 +202,8 @@ impl SweepReport {
         }
     }
 
-    /// The settings of a cell in words: `fleet.0.count = 40, tariffs.fare_level = 1.1`. A setting that is the same in all
-    /// cells is left out.
+    /// The settings of a cell in words: `fleet.0.count = 40, tariffs.fare_level = 1.1`. A setting
+    /// that is the same in all cells is left out.
     pub fn settings(&self, cell: &CellSummary) -> String {
         let pairs = self.effects.iter().zip(&cell.settings);
         let varied = pairs.filter(|(effect, _)| effect.levels.len() > 1);
@@ -212,11 +217,6 @@ impl SweepReport {
     pub(super) fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("plain data")
     }
-}
-
-/// A value as people write it: a text without quotes.
-pub(crate) fn format_value(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
 fn result(sweep: &Sweep, policy: usize, record: &CellRecord, best: &CellRecord) -> CellResult {

@@ -2,7 +2,7 @@
 
 use vertifleet_picture::numbers::{counted, grouped, signed};
 
-use super::summary::format_value;
+use super::design::format_value;
 use super::{SweepReport, headline};
 use crate::table::{append_aligned, estimate};
 

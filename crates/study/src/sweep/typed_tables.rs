@@ -1,13 +1,15 @@
-//! `cells.parquet` and `days.parquet`: the columns of `cells.csv` and `days.csv` with types, for data frames and databases.
+//! `cells.parquet` and `days.parquet`: the columns of `cells.csv` and `days.csv` with types, for
+//! data frames and databases.
 //!
-//! A setting has the narrowest type that all of its values in the design fit: whole numbers, numbers, true or false, or else
-//! texts as they stand in the CSV files. So the schema does not depend on the results.
+//! A setting has the narrowest type that all of its values in the design fit: whole numbers,
+//! numbers, true or false, or else texts as they stand in the CSV files. So the schema does not
+//! depend on the results.
 
 use serde_json::Value;
 use vertifleet_export::{Cells, TypedColumn, typed_table};
 use vertifleet_sim::{DayNumber, DayTotals};
 
-use super::summary::format_value;
+use super::design::format_value;
 use super::{CellResult, CellSummary, SweepRecords, SweepReport};
 
 /// A row of the cells: a cell with the results of one policy, or a cell that was left out.
