@@ -154,7 +154,7 @@ test('a decision is taken back as long as the aircraft has not departed', async 
   await expect(page.getByText('The decision of A01 is taken back.')).toBeVisible()
   expect((await fleet.events()).map((one) => one.event.type)).toEqual(['decided', 'undone'])
 
-  await expect(page.getByRole('region', { name: 'Needs a decision' }).locator('.count')).toHaveText('6')
+  await expect(page.getByRole('region', { name: 'Needs a decision' }).locator('.badge')).toHaveText('6')
   // It leads back to the aircraft.
   await expect(panel(page).getByRole('heading', { name: /^A01/ })).toBeVisible()
   await page.waitForTimeout(400)

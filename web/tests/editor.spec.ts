@@ -4,7 +4,7 @@
 import type { Page } from '@playwright/test'
 import type { NetworkInfo } from '../src/api/types'
 import { smallNetwork } from './support/fleet'
-import { screens, TOLERANCE } from './support/screens'
+import { expectToLook, screens } from './support/screens'
 import { expect, expectAccessible, expectAccessibleInBoth, test } from './support/test'
 
 async function openNetwork(page: Page, console: string, name: string | RegExp): Promise<void> {
@@ -308,10 +308,7 @@ for (const screen of ['desk', 'phone'] as const) {
       ['editor-demand', 'Demand'],
     ] as const) {
       await page.getByRole('tab', { name: tab }).click()
-      for (const colorScheme of ['light', 'dark'] as const) {
-        await page.emulateMedia({ colorScheme })
-        await expect.soft(page).toHaveScreenshot(`${name}-${screen}-${colorScheme}.png`, TOLERANCE)
-      }
+      await expectToLook(page, `${name}-${screen}`)
     }
   })
 }

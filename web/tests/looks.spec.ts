@@ -4,7 +4,7 @@ import type { Page } from '@playwright/test'
 import type { Fleet } from './support/fleet'
 import { morning, standStill } from './support/morning'
 import type { Program } from './support/program'
-import { screens, TOLERANCE } from './support/screens'
+import { expectToLook, screens } from './support/screens'
 import { expect, open, panel, test } from './support/test'
 
 /** Pictures have a font that `scripts/console` installs, whatever the machine prefers. */
@@ -71,11 +71,7 @@ test('the views of a day look as they did', async ({ page, program }) => {
       await page.goto('about:blank')
       await show(page, program, fleet)
       await page.mouse.move(0, 0)
-      for (const scheme of ['light', 'dark'] as const) {
-        await page.emulateMedia({ colorScheme: scheme })
-        const look = { ...TOLERANCE, mask: passing(page) }
-        await expect.soft(page).toHaveScreenshot(`${view}-${screen}-${scheme}.png`, look)
-      }
+      await expectToLook(page, `${view}-${screen}`, passing(page))
     }
   }
 })

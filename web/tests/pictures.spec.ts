@@ -1,10 +1,8 @@
 // The map and the timelines by themselves: what they look like, that they can be used with keys and without eyes, and that 200
 // aircraft move on a machine without a graphics processor.
 
-import { expect, expectAccessible, frameTimes, test, withoutProcessor } from './support/pictures'
-import { screens, TOLERANCE } from './support/screens'
-
-test.use({ launchOptions: withoutProcessor })
+import { expect, expectAccessible, frameTimes, test } from './support/pictures'
+import { expectToLook, screens } from './support/screens'
 
 test.beforeAll(({ days }) => {
   days.make('new-york', 'new-york')
@@ -24,10 +22,7 @@ test.describe('pictures', () => {
       test(`the ${picture} looks as it did (${screen})`, async ({ page, show }) => {
         await page.setViewportSize(screens[screen])
         await show(`picture=${picture}&day=${day}&at=13:20:00`)
-        for (const scheme of ['light', 'dark'] as const) {
-          await page.emulateMedia({ colorScheme: scheme })
-          await expect.soft(page).toHaveScreenshot(`${picture}-${screen}-${scheme}.png`, TOLERANCE)
-        }
+        await expectToLook(page, `${picture}-${screen}`)
       })
     }
   }
@@ -42,15 +37,6 @@ test.describe('pictures', () => {
 
 test.describe('the map', () => {
   test.describe('without a graphics processor', () => {
-    test('keeps the bundled base map where another cannot be loaded', async ({ page, show }) => {
-      await page.route(
-        ({ pathname }) => pathname === '/nowhere.pmtiles',
-        (route) => route.abort(),
-      )
-      await show('picture=map&day=new-york&at=10:31:00&basemap=/nowhere.pmtiles')
-      await expect(page.getByText(/could not be loaded.*Natural Earth/)).toBeVisible()
-    })
-
     test('says in words what it shows, and hides its canvases from those who hear it', async ({
       page,
       show,

@@ -2,17 +2,8 @@
 
 import { readFileSync } from 'node:fs'
 import { pathToFileURL } from 'node:url'
-import {
-  expect,
-  expectAccessible,
-  fixture,
-  replayOfFixtures,
-  test,
-  withoutProcessor,
-} from './support/pictures'
-import { screens, TOLERANCE } from './support/screens'
-
-test.use({ launchOptions: withoutProcessor })
+import { expect, expectAccessibleInBoth, fixture, replayOfFixtures, test } from './support/pictures'
+import { expectToLook, screens } from './support/screens'
 
 let address = ''
 test.beforeAll(({ days }) => {
@@ -213,10 +204,7 @@ for (const [name, size] of Object.entries(screens)) {
   test(`the replay looks as it did, and axe finds nothing serious (${name})`, async ({ page }) => {
     await page.setViewportSize(size)
     await page.goto(`${address}#policy=prices&with=greedy&at=07:41:00`)
-    for (const scheme of ['light', 'dark'] as const) {
-      await page.emulateMedia({ colorScheme: scheme })
-      await expect.soft(page).toHaveScreenshot(`replay-${name}-${scheme}.png`, TOLERANCE)
-      await expectAccessible(page)
-    }
+    await expectToLook(page, `replay-${name}`)
+    await expectAccessibleInBoth(page)
   })
 }

@@ -17,6 +17,12 @@ export class ProblemError extends Error {
   }
 }
 
+/** What was caught, if a request was refused; anything else is an error of our own, and not hidden. */
+export function refusal(cause: unknown): ProblemError {
+  if (cause instanceof ProblemError) return cause
+  throw cause
+}
+
 /** No answer came: the service does not run, or the network is away. */
 export function noAnswer(cause: unknown): ProblemError {
   return new ProblemError(0, '', cause instanceof Error ? cause.message : String(cause), undefined)

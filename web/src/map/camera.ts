@@ -1,6 +1,7 @@
 // What part of the plane a picture shows. Cameras are values: moving one makes another, so that a picture knows by comparison
 // whether it must be drawn again.
 
+import type { ColourName, Rgb } from '../parts/colours'
 import type { Size } from '../parts/sheet'
 import type { Box } from './plane'
 
@@ -12,6 +13,13 @@ export interface Camera {
   readonly y: number
   /** Pixels for a mile. */
   readonly scale: number
+}
+
+/** The part of the plane that a map shows, and the colours of the theme. */
+export interface MapView {
+  camera: Camera
+  size: Size
+  colours: Record<ColourName, Rgb>
 }
 
 /** A few stands fill the picture. */

@@ -2,8 +2,9 @@
 
 import { NONE } from '../model/motion'
 import type { Target } from '../model/target'
+import type { Pixel } from '../parts/pointers'
 import { radiusOf } from './rings'
-import { aircraftPixel, vertiportPixel, visibility, type Pixel, type Viewpoint } from './where'
+import { aircraftPixel, vertiportPixel, visibility, type Viewpoint } from './where'
 
 /** How far from the middle of an aircraft the pointer may be, pixels; fingers are less exact. */
 const REACH = { mouse: 12, touch: 22 }

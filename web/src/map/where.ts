@@ -2,6 +2,8 @@
 
 import { at } from '../model/arrays'
 import { NONE, Phase } from '../model/motion'
+import type { Target } from '../model/target'
+import type { Pixel } from '../parts/pointers'
 import { pixelX, pixelY, type Camera, type Size } from './camera'
 import { visibilityNear } from './painters/painter'
 import { radiusOf } from './rings'
@@ -11,11 +13,6 @@ export interface Viewpoint {
   scene: Scene
   camera: Camera
   size: Size
-}
-
-export interface Pixel {
-  x: number
-  y: number
 }
 
 /** How far outside of the ring an aircraft is that may not take off yet, or is overdue, pixels. */
@@ -29,6 +26,12 @@ export function vertiportPixel({ scene, camera, size }: Viewpoint, vertiport: nu
     x: pixelX(camera, size, at(places, 2 * vertiport)),
     y: pixelY(camera, size, at(places, 2 * vertiport + 1)),
   }
+}
+
+export function targetPixel(viewpoint: Viewpoint, target: Target): Pixel {
+  return target.kind === 'vertiport'
+    ? vertiportPixel(viewpoint, target.vertiport)
+    : aircraftPixel(viewpoint, target.aircraft)
 }
 
 /** Where an aircraft is drawn. One that is delayed stands beside its vertiport, on the side of its destination; one that should have

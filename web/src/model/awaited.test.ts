@@ -1,31 +1,20 @@
 import { describe, expect, it } from 'vitest'
-import type { DayState, Outlook, TakenEvent } from '../api/types'
+import type { TakenEvent } from '../api/types'
 import { aircraftAt, awaitedLike, minutesOverdue, recordAt } from './awaited'
 import { fleetRows, standRows, type Bar } from './bars'
 import { Counts } from './counts'
 import { expectedNext, nextOf } from './decisions'
-import answers from './fixtures/live-day.json'
-import { liveRecord } from './live'
+import { east, events, north, recordAfter as recordOf, south, state } from './fixtures/liveDay'
 import { Fleet, NONE, Phase } from './motion'
 import type { DayRecord, LegRecord } from './record'
-import { Reports } from './reports'
-import type { Scenario } from './scenario'
 import { clock, timeOf } from './time'
 
 // At 06:47 A02 is in the air to South, due at 06:54:06, and A03 has been sent off from East to North and has not departed.
-const scenario = answers.scenario as Scenario
-const state = answers.state as DayState
-const outlook = answers.outlook as Outlook
-const events = answers.events.events as unknown as TakenEvent[]
-const [north, east, south] = [0, 1, 2]
 const [a02, a03, a05] = [1, 2, 4]
 const late = timeOf('07:15:00')
 
 function recordAfter(...more: object[]): DayRecord {
-  const reports = new Reports(scenario)
-  for (const event of events) reports.take(event)
-  more.forEach((event, at) => reports.take({ seq: 100 + at, event } as TakenEvent))
-  return liveRecord({ scenario, reports, state, outlook, flown: [] })
+  return recordOf([...events, ...more.map((event, at) => ({ seq: 100 + at, event }) as TakenEvent)])
 }
 
 const record = recordAfter()

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import type { DayState, Proposal, TakenEvent } from '../api/types'
+import type { Proposal, TakenEvent } from '../api/types'
 import {
   canBeTakenBack,
   decidedLately,
@@ -13,11 +13,8 @@ import {
   waitingOf,
   worthOf,
 } from './decisions'
-import answers from './fixtures/live-day.json'
+import { events, state } from './fixtures/liveDay'
 import type { DayRecord } from './record'
-
-const state = answers.state as DayState
-const events = answers.events.events as unknown as TakenEvent[]
 
 const proposal: Proposal = {
   aircraft: 'A01',

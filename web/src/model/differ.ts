@@ -2,6 +2,7 @@
 // one is a choice between two legs from one situation. Plays of people differ in the order and the second of their decisions too,
 // so legs are compared aircraft by aircraft.
 
+import { grouped } from './arrays'
 import type { DayRecord, LegRecord, Seconds } from './record'
 
 /** What each day did at a time; undefined where the aircraft has decided nothing. */
@@ -21,7 +22,7 @@ export interface FirstDifference extends Difference {
 
 /** The first decision in which an aircraft is sent elsewhere; undefined if all go the same ways all day. */
 export function firstDifference(one: DayRecord, other: DayRecord): FirstDifference | undefined {
-  const [ones, others] = [byAircraft(one), byAircraft(other)]
+  const [ones, others] = [grouped(one.legs, aircraftOf), grouped(other.legs, aircraftOf)]
   const aircraft = [...new Set([...ones.keys(), ...others.keys()])]
   const first = earliest(aircraft.flatMap((id) => partings(ones.get(id) ?? [], others.get(id) ?? [])))
   if (first === undefined) return undefined
@@ -74,7 +75,7 @@ const SAME_S = 60
 const NEAR_S = 900
 
 function otherwise(record: DayRecord, other: DayRecord): Otherwise {
-  const others = byAircraft(other)
+  const others = grouped(other.legs, aircraftOf)
   const found = new Map<number, Differing>()
   record.legs.forEach((leg, position) => {
     const twins = others.get(leg.aircraft) ?? []
@@ -116,15 +117,8 @@ function earliest(list: readonly Difference[]): Difference | undefined {
   return list.toSorted((one, other) => one.time - other.time)[0]
 }
 
-/** The legs of each aircraft, those first that decide first. */
-function byAircraft({ legs }: DayRecord): Map<number, LegRecord[]> {
-  const lists = new Map<number, LegRecord[]>()
-  for (const leg of legs) {
-    const list = lists.get(leg.aircraft)
-    if (list === undefined) lists.set(leg.aircraft, [leg])
-    else list.push(leg)
-  }
-  return lists
+function aircraftOf({ aircraft }: LegRecord): number {
+  return aircraft
 }
 
 function sumOf(record: DayRecord): number {

@@ -1,7 +1,7 @@
 // Ways between vertiports: great circles where there are coordinates, straight lines in the plane of miles where not.
 //
-// A position is two numbers: degrees east and north, or miles east and north. Everything here writes into arrays that are there
-// already, since pictures ask for every aircraft at every frame.
+// A position is two numbers: degrees east and north, or miles east and north. Positions of a fleet are written into arrays that are
+// there already, since pictures ask for every aircraft at every frame.
 
 import { at } from './arrays'
 import type { Place, VertiportRecord } from './record'
@@ -9,6 +9,8 @@ import type { Place, VertiportRecord } from './record'
 /** The mean radius of the earth, as docs/src/concepts/model.md has it. */
 const EARTH_MI = 3958.7613
 const RADIANS = Math.PI / 180
+
+type PlaceAndHeading = [east: number, north: number, heading: number]
 
 /** Where vertiports are, and the ways between them. */
 export class Geography {
@@ -48,34 +50,22 @@ export class Geography {
     headings: Float32Array,
     index: number,
   ): void {
-    if (this.isGlobe) this.#alongGreatCircle(from, to, share, places, headings, index)
-    else this.#alongLine(from, to, share, places, headings, index)
+    const [east, north, heading] = this.isGlobe
+      ? this.#alongGreatCircle(from, to, share)
+      : this.#alongLine(from, to, share)
+    places[2 * index] = east
+    places[2 * index + 1] = north
+    headings[index] = heading
   }
 
-  #alongLine(
-    from: number,
-    to: number,
-    share: number,
-    places: Float64Array,
-    headings: Float32Array,
-    index: number,
-  ): void {
+  #alongLine(from: number, to: number, share: number): PlaceAndHeading {
     const [x, y] = [this.#coordinate(from, 0), this.#coordinate(from, 1)]
     const [dx, dy] = [this.#coordinate(to, 0) - x, this.#coordinate(to, 1) - y]
-    places[2 * index] = x + share * dx
-    places[2 * index + 1] = y + share * dy
-    headings[index] = Math.atan2(dx, dy) / RADIANS
+    return [x + share * dx, y + share * dy, Math.atan2(dx, dy) / RADIANS]
   }
 
   /** Spherical interpolation: p = (a sin((1 - s) w) + b sin(s w)) / sin w, and the bearing of b seen from p. */
-  #alongGreatCircle(
-    from: number,
-    to: number,
-    share: number,
-    places: Float64Array,
-    headings: Float32Array,
-    index: number,
-  ): void {
+  #alongGreatCircle(from: number, to: number, share: number): PlaceAndHeading {
     const angle = this.#angle(from, to)
     const sine = Math.sin(angle)
     const ahead = sine < 1e-12 ? share : Math.sin(share * angle) / sine
@@ -84,9 +74,9 @@ export class Geography {
     const x = behind * at(vectors, f) + ahead * at(vectors, t)
     const y = behind * at(vectors, f + 1) + ahead * at(vectors, t + 1)
     const z = behind * at(vectors, f + 2) + ahead * at(vectors, t + 2)
-    places[2 * index] = Math.atan2(y, x) / RADIANS
-    places[2 * index + 1] = Math.atan2(z, Math.hypot(x, y)) / RADIANS
-    headings[index] = this.#bearing(x, y, z, f, t, share)
+    const east = Math.atan2(y, x) / RADIANS
+    const north = Math.atan2(z, Math.hypot(x, y)) / RADIANS
+    return [east, north, this.#bearing(x, y, z, f, t, share)]
   }
 
   /** The direction of the great circle at a point of it: the part of the way that points east, and that which points north. */

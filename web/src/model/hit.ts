@@ -1,6 +1,7 @@
 // Who is hit if things are otherwise: what two rests of a day have in common and what not within the next hours. Later on nearly every
 // decision differs, because each follows from those before, so that says nothing about the change itself.
 
+import { grouped } from './arrays'
 import type { Otherwise } from './differ'
 import { isHold, type DayRecord, type LegRecord, type Seconds } from './record'
 
@@ -103,15 +104,8 @@ function timeOf({ asItIs, whatIf }: HitAircraft): Seconds {
 
 /** The legs of each aircraft that are yet to be decided. */
 function byAircraft({ aircraft, legs }: DayRecord, now: Seconds): Map<string, LegRecord[]> {
-  const rows = new Map<string, LegRecord[]>()
-  for (const leg of legs) {
-    if (!leg.is_expected || leg.decided < now) continue
-    const id = aircraft[leg.aircraft]?.id ?? ''
-    const row = rows.get(id)
-    if (row === undefined) rows.set(id, [leg])
-    else row.push(leg)
-  }
-  return rows
+  const left = legs.filter((leg) => leg.is_expected && leg.decided >= now)
+  return grouped(left, (leg) => aircraft[leg.aircraft]?.id ?? '')
 }
 
 function idOf({ vertiports }: DayRecord, vertiport: number): string {

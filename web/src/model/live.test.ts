@@ -1,30 +1,14 @@
 import { describe, expect, it } from 'vitest'
-import type { DayState, Outlook, TakenEvent } from '../api/types'
-import answers from './fixtures/live-day.json'
+import type { DayState, Outlook } from '../api/types'
+import { east, events, north, outlook, recordAfter, scenario, south, state } from './fixtures/liveDay'
 import { liveRecord } from './live'
-import { isHold, type DayRecord, type LegRecord } from './record'
+import { isHold } from './record'
 import { Reports } from './reports'
-import type { Scenario } from './scenario'
 import { timeOf } from './time'
 
-const scenario = answers.scenario as Scenario
-const state = answers.state as DayState
-const outlook = answers.outlook as Outlook
-const events = answers.events.events as unknown as TakenEvent[]
-const [north, east, south] = [0, 1, 2]
 const [a01, a02, a03, a04, a05] = [0, 1, 2, 3, 4]
 
-function recordAfter(
-  numberOfEvents: number,
-  given: Outlook | null = outlook,
-  flown: LegRecord[] = [],
-): DayRecord {
-  const reports = new Reports(scenario)
-  for (const event of events.slice(0, numberOfEvents)) reports.take(event)
-  return liveRecord({ scenario, reports, state, outlook: given ?? undefined, flown })
-}
-
-const record = recordAfter(events.length)
+const record = recordAfter()
 const taken = (aircraft: number) => record.legs.filter((leg) => leg.aircraft === aircraft && !leg.is_expected)
 
 describe('the record of a live day', () => {
@@ -62,7 +46,7 @@ describe('the record of a live day', () => {
   })
 
   it('shows flights of which only the state knows', () => {
-    const { legs } = recordAfter(events.length, null)
+    const { legs } = recordAfter(events, null)
     expect(legs.map((leg) => [leg.aircraft, leg.to, leg.departs])).toEqual([
       [a02, south, timeOf('06:11:30')],
       [a03, north, timeOf('06:47:00')],
@@ -71,7 +55,7 @@ describe('the record of a live day', () => {
 
   it('has what had been flown before there is an outlook', () => {
     const flown = record.legs.filter((leg) => !leg.is_expected)
-    const early = recordAfter(events.length, null, flown)
+    const early = recordAfter(events, null, flown)
     expect(early.legs.map(({ decided, aircraft }) => [decided, aircraft])).toEqual(
       flown.map(({ decided, aircraft }) => [decided, aircraft]),
     )
@@ -82,7 +66,7 @@ describe('the record of a live day', () => {
       ...outlook,
       legs: outlook.legs.filter((leg) => !(leg.aircraft === 'A03' && leg.is_taken)),
     }
-    const legs = recordAfter(events.length, older).legs.filter((leg) => leg.aircraft === a03)
+    const legs = recordAfter(events, older).legs.filter((leg) => leg.aircraft === a03)
     expect(legs[0]).toMatchObject({ is_expected: false, to: north, profit_usd: 0 })
     expect(legs.slice(1).every((leg) => leg.decided >= timeOf('07:52:21'))).toBe(true)
   })
@@ -111,10 +95,12 @@ describe('the record of a live day', () => {
   })
 
   it('takes a closed vertiport apart when one of its routes opens', () => {
-    expect(recordAfter(10).closures).toEqual([
+    expect(recordAfter(events.slice(0, 10)).closures).toEqual([
       { vertiport: south, since: timeOf('06:20:00'), until: timeOf('08:00:00'), reason: 'fog' },
     ])
-    const inForce = recordAfter(11).closures.filter((one) => (one.until ?? Infinity) > timeOf('06:30:00'))
+    const inForce = recordAfter(events.slice(0, 11)).closures.filter(
+      (one) => (one.until ?? Infinity) > timeOf('06:30:00'),
+    )
     const routes = inForce.map((one) => ('vertiport' in one ? 'all' : `${one.from}-${one.to}`))
     expect(routes.sort()).toEqual([`${north}-${south}`, `${east}-${south}`, `${south}-${east}`].sort())
   })

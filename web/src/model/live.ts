@@ -1,6 +1,8 @@
 // A live day as a record: its scenario, what its events said, and how the service expects it to go on.
 
 import type { AircraftState, DayState, Leg, Outlook } from '../api/types'
+import { grouped } from './arrays'
+import { nominal } from './nominal'
 import type { AircraftRecord, DayRecord, DemandRecord, LegRecord, Seconds, VertiportRecord } from './record'
 import { indexed, known, type Reports } from './reports'
 import type { Scenario } from './scenario'
@@ -189,19 +191,10 @@ class Legs {
     const policy = report?.policy === undefined ? {} : { policy: report.policy }
     if (leg.from === leg.to) return { ...leg, ...policy }
     const departs = report?.departs ?? leg.decided
-    const arrives = leg.decided + this.#flightTime(leg)
+    const arrives = leg.decided + nominal(this.scenario, leg).flight_s
     if (departs === leg.decided && leg.arrives === arrives) return { ...leg, ...policy, departs }
     const planned = { departs: leg.decided, arrives, ready: arrives + leg.ready - leg.arrives }
     return { ...leg, ...policy, departs, planned }
-  }
-
-  /** How long a flight takes if nothing holds it up (the model of the book): the way at cruise speed between two windows. */
-  #flightTime({ aircraft, from, to }: LegRecord): Seconds {
-    const { takeoff_s, landing_s } = this.scenario.operations
-    const type = this.scenario.aircraft[aircraft]?.type
-    const speed_mph = this.scenario.aircraft_types.find((one) => one.id === type)?.speed_mph ?? 1
-    const distance_mi = this.scenario.distance_mi[from]?.[to] ?? 0
-    return takeoff_s + Math.round((distance_mi / speed_mph) * 3600) + landing_s
   }
 }
 
@@ -221,17 +214,14 @@ function demandOf(scenario: Scenario, reports: Reports, legs: LegRecord[]): Dema
 
 /** Passengers who were carried, by period and pair: a report of demand counts only those who are left. */
 class Carried {
-  readonly #legs = new Map<string, LegRecord[]>()
+  readonly #legs: Map<string, LegRecord[]>
 
   constructor(legs: LegRecord[], periods: Seconds[]) {
-    for (const leg of legs) {
-      if (leg.is_expected || leg.passengers === 0) continue
-      const period = periods.findLastIndex((begins) => begins <= leg.decided)
-      const name = `${period} ${leg.from} ${leg.to}`
-      const others = this.#legs.get(name)
-      if (others === undefined) this.#legs.set(name, [leg])
-      else others.push(leg)
-    }
+    const carried = legs.filter((leg) => !leg.is_expected && leg.passengers > 0)
+    this.#legs = grouped(carried, ({ decided, from, to }) => {
+      const period = periods.findLastIndex((begins) => begins <= decided)
+      return `${period} ${from} ${to}`
+    })
   }
 
   before(time: Seconds, period: number, from: number, to: number): number {

@@ -1,9 +1,8 @@
 import { describe, expect, it } from 'vitest'
 import type { TakenEvent } from '../api/types'
 import { everything, eventTypes, isWanted, vertiportsOf, type LogFilter } from './log'
-import answers from './fixtures/live-day.json'
+import { events } from './fixtures/liveDay'
 
-const events = answers.events.events as unknown as TakenEvent[]
 const said = ({ seq, event }: TakenEvent) => ({
   words: `${event.type} ${'reason' in event ? (event.reason ?? '') : ''}`,
   place: seq === 12 ? 'East' : undefined,

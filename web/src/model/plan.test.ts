@@ -1,10 +1,9 @@
 import { describe, expect, it } from 'vitest'
 import type { Outlook } from '../api/types'
-import answers from './fixtures/live-day.json'
+import { outlook, scenario } from './fixtures/liveDay'
 import { recordOfPlan } from './plan'
 import { timeOf } from './time'
 
-const outlook = answers.outlook as Outlook
 /** As the service would have answered before the first event. */
 const plan: Outlook = {
   ...outlook,
@@ -13,7 +12,7 @@ const plan: Outlook = {
 }
 
 describe('a plan of the morning', () => {
-  const record = recordOfPlan(answers.scenario, plan)
+  const record = recordOfPlan(scenario, plan)
 
   it('is a record with every leg, all of them expected', () => {
     expect(record.legs).toHaveLength(plan.legs.length)
@@ -39,13 +38,12 @@ describe('a plan of the morning', () => {
 
   it('knows of nothing that was reported, and wants the passengers of the forecast', () => {
     expect(record.outages).toEqual([])
-    const { scenario } = answers as { scenario: { demand: number[][][]; forecast?: number[][][] } }
     expect(record.demand?.passengers).toEqual(scenario.forecast ?? scenario.demand)
   })
 
   it('is shown as far as the day has come', () => {
     const until = record.legs[5]?.decided ?? 0
-    const cut = recordOfPlan(answers.scenario, plan, until)
+    const cut = recordOfPlan(scenario, plan, until)
     expect(cut.legs.length).toBeGreaterThan(5)
     expect(cut.legs.length).toBeLessThan(record.legs.length)
     expect(Math.max(...cut.legs.map((leg) => leg.decided))).toBe(until)

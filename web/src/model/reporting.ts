@@ -4,23 +4,6 @@ import type { Event } from '../api/types'
 import { routesOf } from './whatif'
 import { clock, parseTime } from './time'
 
-/** What a person reports by hand; the rest comes from decisions and from systems that count passengers. */
-export const reportKinds = [
-  'departed',
-  'landed',
-  'ready',
-  'delayed',
-  'out_of_service',
-  'back_in_service',
-  'closed',
-  'reopened',
-  'booked',
-  'stands',
-  'clock',
-] as const
-
-export type ReportKind = (typeof reportKinds)[number]
-
 export interface EventFields {
   aircraft: string
   /** A vertiport, or where a route begins. */
@@ -33,7 +16,7 @@ export interface EventFields {
 }
 
 /** Which fields a kind of event has. */
-export interface FieldsOf {
+interface FieldsOf {
   aircraft: boolean
   from: boolean
   /** A destination; `all` if it may be left open. */
@@ -42,35 +25,32 @@ export interface FieldsOf {
   until: 'no' | 'may' | 'must'
 }
 
+/** What a user reports by hand, with its fields; the rest comes from decisions and from systems that count passengers. */
+const fields = {
+  departed: { aircraft: true },
+  landed: { aircraft: true },
+  ready: { aircraft: true },
+  delayed: { aircraft: true, until: 'must' },
+  out_of_service: { aircraft: true, until: 'may' },
+  back_in_service: { aircraft: true },
+  closed: { from: true, to: 'all', until: 'may' },
+  reopened: { from: true, to: 'all' },
+  booked: { from: true, to: 'one', number: true, until: 'must' },
+  stands: { from: true, number: true },
+  clock: {},
+} as const satisfies Partial<Record<Event['type'], Partial<FieldsOf>>>
+
+export type ReportKind = keyof typeof fields
+export const reportKinds = Object.keys(fields) as ReportKind[]
+
 export function fieldsOf(kind: ReportKind): FieldsOf {
-  const none: FieldsOf = { aircraft: false, from: false, to: 'no', number: false, until: 'no' }
-  switch (kind) {
-    case 'departed':
-    case 'landed':
-    case 'ready':
-    case 'back_in_service':
-      return { ...none, aircraft: true }
-    case 'delayed':
-      return { ...none, aircraft: true, until: 'must' }
-    case 'out_of_service':
-      return { ...none, aircraft: true, until: 'may' }
-    case 'closed':
-      return { ...none, from: true, to: 'all', until: 'may' }
-    case 'reopened':
-      return { ...none, from: true, to: 'all' }
-    case 'booked':
-      return { ...none, from: true, to: 'one', number: true, until: 'must' }
-    case 'stands':
-      return { ...none, from: true, number: true }
-    case 'clock':
-      return none
-  }
+  return { aircraft: false, from: false, to: 'no', number: false, until: 'no', ...fields[kind] }
 }
 
 /** The event that was filled in; undefined if its time is none. */
-export function eventOf(kind: ReportKind, fields: EventFields): Event | undefined {
-  const { aircraft, from, to, number } = fields
-  const typed = fields.until.trim()
+export function eventOf(kind: ReportKind, typedIn: EventFields): Event | undefined {
+  const { aircraft, from, to, number } = typedIn
+  const typed = typedIn.until.trim()
   const time = typed === '' ? undefined : parseTime(typed)
   const { until } = fieldsOf(kind)
   if (until !== 'no' && time === undefined && (until === 'must' || typed !== '')) return undefined

@@ -3,7 +3,7 @@
 
 import type { Event, RouteNames, TakenEvent } from '../api/types'
 import type { ClosureRecord, OutageRecord, RouteRecord, Seconds } from './record'
-import type { Scenario } from './scenario'
+import type { Scenario, ScenarioClosure } from './scenario'
 import { timeOf } from './time'
 
 /** What is known of a decision beside what the service's outlook says. */
@@ -24,7 +24,7 @@ export interface DemandReport extends RouteRecord {
 }
 
 export class Reports {
-  readonly closures: ClosureRecord[] = []
+  readonly closures: ClosureRecord[]
   readonly outages: OutageRecord[] = []
   /** By period and pair; only what was said last counts. */
   readonly #demand = new Map<string, DemandReport>()
@@ -41,12 +41,7 @@ export class Reports {
     this.#aircraft = indexed(scenario.aircraft)
     this.#vertiports = indexed(scenario.vertiports)
     this.periods = scenario.periods.map(timeOf)
-    for (const { from, to, both_ways, start, end, known } of scenario.closures ?? []) {
-      if (known !== true) continue
-      const route = { from: this.#vertiport(from), to: this.#vertiport(to) }
-      const ways = both_ways === true ? [route, { from: route.to, to: route.from }] : [route]
-      for (const way of ways) this.closures.push({ ...way, since: timeOf(start), until: timeOf(end) })
-    }
+    this.closures = closuresOf(scenario, (one) => one.known === true)
   }
 
   /** What is known of the decision that an aircraft took at a time. */
@@ -195,6 +190,20 @@ export class Reports {
   #aircraftAt(id: string): number {
     return known(this.#aircraft, id)
   }
+}
+
+/** The closures of a scenario of which something is true, one for each way. */
+export function closuresOf(
+  { vertiports, closures = [] }: Scenario,
+  isOne: (closure: ScenarioClosure) => boolean = () => true,
+): ClosureRecord[] {
+  const positions = indexed(vertiports)
+  return closures.filter(isOne).flatMap((one) => {
+    const [from, to] = [known(positions, one.from), known(positions, one.to)]
+    const times = { since: timeOf(one.start), until: timeOf(one.end) }
+    const back = one.both_ways === true ? [{ from: to, to: from, ...times }] : []
+    return [{ from, to, ...times }, ...back]
+  })
 }
 
 /** Positions by id. */

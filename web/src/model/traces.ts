@@ -2,7 +2,9 @@
 
 import { parseCsv } from './csv'
 import { frameOf } from './live'
-import type { ClosureRecord, DayRecord, LegRecord, OutageRecord } from './record'
+import { nominal, type Nominal } from './nominal'
+import type { DayRecord, LegRecord, OutageRecord } from './record'
+import { closuresOf, indexed } from './reports'
 import type { Scenario } from './scenario'
 import { parseTime, timeOf } from './time'
 
@@ -121,59 +123,26 @@ export function fixedCost(scenario: Scenario): number {
   return sites.reduce((sum, cost) => sum + cost, (scenario.aircraft_cost ?? 0) * scenario.aircraft.length)
 }
 
-function closuresOf(scenario: Scenario): ClosureRecord[] {
-  const vertiports = positions(scenario.vertiports)
-  return (scenario.closures ?? []).flatMap(({ from, to, both_ways, start, end }) => {
-    const times = { since: timeOf(start), until: timeOf(end) }
-    const route = { from: vertiports.get(from) ?? 0, to: vertiports.get(to) ?? 0 }
-    const back = { from: route.to, to: route.from }
-    return both_ways === true
-      ? [
-          { ...route, ...times },
-          { ...back, ...times },
-        ]
-      : [{ ...route, ...times }]
-  })
-}
-
 function outagesOf(scenario: Scenario): OutageRecord[] {
-  const aircraft = positions(scenario.aircraft)
-  const known = (scenario.outages ?? []).filter((one) => aircraft.has(one.aircraft))
-  return known.map((one) => ({
-    aircraft: aircraft.get(one.aircraft) ?? 0,
-    since: timeOf(one.start),
-    until: timeOf(one.end),
-  }))
-}
-
-function positions(list: readonly { id: string }[]): Map<string, number> {
-  return new Map(list.map(({ id }, index) => [id, index]))
-}
-
-/** How long a flight and its charging take if nothing holds them up. */
-interface Nominal {
-  flight_s: number
-  charge_s: number
+  const aircraft = indexed(scenario.aircraft)
+  return (scenario.outages ?? []).flatMap((one) => {
+    const position = aircraft.get(one.aircraft)
+    if (position === undefined) return []
+    return [{ aircraft: position, since: timeOf(one.start), until: timeOf(one.end) }]
+  })
 }
 
 class TraceReader {
   readonly #aircraft: Map<string, number>
   readonly #vertiports: Map<string, number>
-  readonly #types: Scenario['aircraft_types']
   #columns = new Map<string, number>()
 
   constructor(
     private readonly scenario: Scenario,
     private readonly policy: string | undefined,
   ) {
-    this.#aircraft = positions(scenario.aircraft)
-    this.#vertiports = positions(scenario.vertiports)
-    const types = new Map(scenario.aircraft_types.map((one) => [one.id, one]))
-    this.#types = scenario.aircraft.map((one) => {
-      const type = types.get(one.type)
-      if (type === undefined) throw new FileError({ what: 'no-scenario', format: scenario.format })
-      return type
-    })
+    this.#aircraft = indexed(scenario.aircraft)
+    this.#vertiports = indexed(scenario.vertiports)
   }
 
   read(trace: string): LegRecord[] {
@@ -212,7 +181,7 @@ class TraceReader {
       is_expected: false,
       ...(this.policy === undefined ? {} : { policy: this.policy }),
     }
-    if (from !== to) this.#compareWithPlan(leg, this.#nominal(leg))
+    if (from !== to) this.#compareWithPlan(leg, nominal(this.scenario, leg))
     return leg
   }
 
@@ -222,18 +191,6 @@ class TraceReader {
     const planned = { departs: leg.decided, arrives, ready: arrives + charge_s }
     leg.departs = leg.decided + Math.max(0, leg.arrives - arrives)
     if (leg.arrives !== planned.arrives || leg.ready !== planned.ready) leg.planned = planned
-  }
-
-  /** The model of the book: the way at cruise speed between take-off and landing, then the battery is charged to full. */
-  #nominal({ aircraft, from, to }: LegRecord): Nominal {
-    const { takeoff_s, landing_s } = this.scenario.operations
-    const type = this.#types[aircraft]
-    const distance_mi = this.scenario.distance_mi[from]?.[to] ?? 0
-    if (type === undefined) return { flight_s: 0, charge_s: 0 }
-    const flight_s = takeoff_s + Math.round((3600 * distance_mi) / type.speed_mph) + landing_s
-    const lost_kwh = (type.battery_kwh * (type.self_discharge_per_h ?? 0) * flight_s) / 3600
-    const energy_kwh = type.energy_kwh_per_mi * distance_mi + lost_kwh
-    return { flight_s, charge_s: Math.round((3600 * energy_kwh) / type.charge_kw) }
   }
 
   #field(row: string[], column: string): string {

@@ -1,6 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import type { Outlook } from '../api/types'
-import answers from './fixtures/live-day.json'
+import { outlook, scenario as liveScenario } from './fixtures/liveDay'
 import { askedOf, compared, eventsOf, freshId, routesOf, scenarioWith, type Change } from './whatif'
 
 const changes: Change[] = [
@@ -22,13 +21,12 @@ describe('a what-if', () => {
   })
 
   it('is shown with the fleet and the stands that it is about', () => {
-    const scenario = scenarioWith(answers.scenario, askedOf(changes, ''))
+    const scenario = scenarioWith(liveScenario, askedOf(changes, ''))
     expect(scenario.aircraft.at(-1)).toEqual({ id: 'A06', at: 'East', type: 'cityairbus' })
     expect(scenario.vertiports.map((one) => one.stands)).toEqual([9, 3, 2])
   })
 
   it('is compared number by number', () => {
-    const outlook = answers.outlook as Outlook
     const rows = compared(outlook, {
       ...outlook,
       totals: { ...outlook.totals, passengers: 1 },

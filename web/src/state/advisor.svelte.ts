@@ -1,7 +1,7 @@
 // Advice for one aircraft, as a person reads and takes it. What is shown never changes while the user works with it: if the
 // day moves on meanwhile, the newer advice waits until it is asked for.
 
-import { ProblemError } from '../api/problem'
+import { refusal, ProblemError } from '../api/problem'
 import type { Service } from '../api/client'
 import type { Proposal, TakenDecision } from '../api/types'
 import { isSameAdvice } from '../model/decisions'
@@ -161,7 +161,6 @@ export class Advisor {
   }
 
   #fail(problem: unknown): void {
-    if (!(problem instanceof ProblemError)) throw problem
-    this.problem = problem
+    this.problem = refusal(problem)
   }
 }

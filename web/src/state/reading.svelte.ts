@@ -1,6 +1,6 @@
 // What a view reads of the service as a whole, such as a list: what was read last stays when it cannot be read again, beside why.
 
-import { ProblemError } from '../api/problem'
+import { refusal, type ProblemError } from '../api/problem'
 
 export class Reading<T> {
   /** What was read last; undefined until it was. */
@@ -15,8 +15,7 @@ export class Reading<T> {
       this.value = await this.ask()
       this.problem = undefined
     } catch (cause) {
-      if (!(cause instanceof ProblemError)) throw cause
-      this.problem = cause
+      this.problem = refusal(cause)
     }
   }
 

@@ -1,6 +1,6 @@
 // What the console says about what was done: shown for a while, errors until they are closed.
 
-import { ProblemError } from '../api/problem'
+import { refusal } from '../api/problem'
 import { said } from '../text/problems'
 import { text } from '../text/text'
 
@@ -29,9 +29,9 @@ class Toasts {
 
   /** Says what a request failed of, with its code and remedy. Anything else is an error of our own, and not hidden. */
   fail(problem: unknown): void {
-    if (!(problem instanceof ProblemError)) throw problem
-    const { title, hint, code } = said(problem)
-    const remedy = problem.status === 0 ? text.errors.noAnswerHint : hint
+    const refused = refusal(problem)
+    const { title, hint, code } = said(refused)
+    const remedy = refused.status === 0 ? text.errors.noAnswerHint : hint
     this.#add({
       kind: 'error',
       title,

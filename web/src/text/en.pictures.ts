@@ -3,6 +3,18 @@
 
 import { plural } from './numbers'
 
+/** What the keys of the map and the timelines call flights and stands. */
+const states = {
+  full: 'full flight',
+  partial: 'flight with free seats',
+  empty: 'flight without passengers',
+  delayed: 'take-off delayed',
+  overdue: 'overdue',
+  holding: 'holding',
+  charging: 'charging',
+  out: 'out of service',
+}
+
 export const map = {
   title: 'Map',
   summary: (vertiports: string, aircraft: string) => `A map of ${vertiports} and ${aircraft}.`,
@@ -27,15 +39,8 @@ export const map = {
   demand: 'Waiting passengers',
   key: 'Key',
   keys: {
-    full: 'full flight',
-    partial: 'flight with free seats',
-    empty: 'flight without passengers',
-    delayed: 'take-off delayed',
-    overdue: 'overdue',
+    ...states,
     waiting: 'waiting for a decision',
-    holding: 'holding',
-    charging: 'charging',
-    out: 'out of service',
     promised: 'stand promised',
     free: 'stand free',
     demand: 'passengers waiting, strong where they are',
@@ -48,11 +53,11 @@ export const map = {
   aircraftOfType: (id: string, type: string) => `${id}, aircraft of type “${type}”`,
   phases: {
     waiting: 'ready, waits for a decision',
-    charging: 'charging',
-    holding: 'holding',
-    delayed: 'take-off delayed',
+    charging: states.charging,
+    holding: states.holding,
+    delayed: states.delayed,
     flying: 'in the air',
-    out: 'out of service',
+    out: states.out,
   },
   from: (from: string, to: string) => `${from} → ${to}`,
   at: (vertiport: string) => `at ${vertiport}`,
@@ -84,14 +89,7 @@ export const timeline = {
   picture: 'As a picture',
   key: {
     title: 'What the colours mean',
-    full: 'full flight',
-    thin: 'flight with free seats',
-    empty: 'flight without passengers',
-    charging: 'charging',
-    holding: 'holding',
-    delayed: 'take-off delayed',
-    overdue: 'overdue',
-    out: 'out of service',
+    ...states,
     noStand: 'no stand is free',
     expected: 'expected',
   },

@@ -8,7 +8,7 @@ import { paintRows, type GanttPicture } from './paint'
 
 export const AXIS_PX = 26
 
-export interface TimelinePicture extends GanttPicture {
+export interface Now {
   time: Seconds
   isLive: boolean
 }
@@ -17,31 +17,7 @@ export class Sheets {
   readonly #axis = new Sheet()
   readonly #rows = new Sheet()
   readonly #now = new Sheet()
-  readonly #hasChanged = changed(
-    ({
-      record,
-      rows,
-      span,
-      size,
-      rowHeight,
-      scrollTop,
-      colours,
-      hovered,
-      selected,
-      otherwise,
-    }: TimelinePicture) => [
-      record,
-      rows,
-      span,
-      size,
-      rowHeight,
-      scrollTop,
-      colours,
-      hovered,
-      selected,
-      otherwise,
-    ],
-  )
+  readonly #hasChanged = changed((rows: GanttPicture) => Object.values(rows))
 
   /** Puts the layers into the elements of the axis and of the rows. */
   constructor(axis: HTMLElement, rows: HTMLElement) {
@@ -49,13 +25,13 @@ export class Sheets {
     rows.append(this.#rows.canvas, this.#now.canvas)
   }
 
-  paint(picture: TimelinePicture): void {
+  paint(picture: GanttPicture, now: Now): void {
     const { size } = picture
     const whole = { width: GUTTER_PX + size.width, height: size.height }
     if (this.#hasChanged(picture)) this.#paintRows(picture, whole)
-    paintNow(this.#now.begin(whole), picture)
+    paintNow(this.#now.begin(whole), { ...picture, ...now })
     const axis = { width: size.width, height: AXIS_PX }
-    paintAxis(this.#axis.begin({ width: whole.width, height: AXIS_PX }), { ...picture, size: axis })
+    paintAxis(this.#axis.begin({ width: whole.width, height: AXIS_PX }), { ...picture, ...now, size: axis })
   }
 
   destroy(): void {
@@ -63,7 +39,7 @@ export class Sheets {
   }
 
   /** Rows are drawn beside their names and never beneath them. */
-  #paintRows(picture: TimelinePicture, whole: { width: number; height: number }): void {
+  #paintRows(picture: GanttPicture, whole: { width: number; height: number }): void {
     const context = this.#rows.begin(whole)
     context.save()
     context.beginPath()

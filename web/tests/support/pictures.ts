@@ -10,19 +10,14 @@ import { createServer, type ViteDevServer } from 'vite'
 import { chromium } from './browsers'
 
 export { expect } from '@playwright/test'
-export { expectAccessible } from './test'
+export { expectAccessible, expectAccessibleInBoth } from './test'
 
 const program = resolve(process.env['VERTIFLEET_PROGRAM'] ?? '../target/checked/release/vertifleet')
 const fixtures = resolve('src/model/fixtures')
 const large = resolve('../networks/large.toml')
 
-/** What a machine without a graphics processor does, as most machines that run tests. */
-export const withoutProcessor = {
-  executablePath: chromium,
-  args: ['--no-sandbox', '--disable-gpu'],
-}
 /** WebGL on the main processor. */
-export const withWebGL = { ...withoutProcessor, args: ['--no-sandbox', '--enable-unsafe-swiftshader'] }
+export const withWebGL = { executablePath: chromium, args: ['--no-sandbox', '--enable-unsafe-swiftshader'] }
 
 /** The shipped network `large` with 200 aircraft. */
 export function networkOfTwoHundred(): string {
@@ -87,8 +82,7 @@ export const test = base.extend<Fixtures, WorkerFixtures>({
     async ({}, use) => {
       const server = await createServer({
         // Found out only later, they would have the page loaded again in the middle of a test.
-        optimizeDeps: { include: ['@deck.gl/core', '@deck.gl/layers', 'maplibre-gl', 'pmtiles'] },
-
+        optimizeDeps: { include: ['maplibre-gl', 'pmtiles'] },
         server: { port: 0, host: '127.0.0.1', hmr: false },
         logLevel: 'silent',
       })

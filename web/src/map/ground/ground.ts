@@ -2,8 +2,8 @@
 // drawn again only when the camera moves, the theme changes or more of the world has come.
 
 import { at } from '../../model/arrays'
-import { css, type ColourName, type Rgb } from '../../parts/colours'
-import { pixelX, pixelY, view, type Camera, type Size } from '../camera'
+import { css } from '../../parts/colours'
+import { pixelX, pixelY, view, type MapView } from '../camera'
 import type { Plane } from '../plane'
 import { CELL } from './grid'
 import { digitsOf, multiples, roundUp } from './steps'
@@ -13,11 +13,8 @@ import { World, type Cell } from './world'
 const GRID_PX = 110
 const BORDER_DASH = [6, 4]
 
-export interface GroundPicture {
+export interface GroundPicture extends MapView {
   plane: Plane
-  camera: Camera
-  size: Size
-  colours: Record<ColourName, Rgb>
 }
 
 export class Ground {

@@ -1,12 +1,14 @@
-// Draws the map on plain canvases: one for what changes with decisions, one for what moves. It needs no graphics processor.
+// Draws the network on canvases: one for what changes with decisions, one for what moves. With 500 aircraft a frame takes less
+// than 4 ms of scripting; WebGL layers, which are prepared anew in each frame, took five times as long.
 
 import { at } from '../../model/arrays'
 import { COUNTED } from '../../model/counts'
 import { NONE } from '../../model/motion'
 import { aircraftMeant } from '../../model/target'
+import type { Pixel } from '../../parts/pointers'
 import { css } from '../../parts/colours'
 import { piecesOf, radiusOf, ringWidth } from '../rings'
-import { aircraftPixel, direction, vertiportPixel, visibility, wayBegin, type Pixel } from '../where'
+import { aircraftPixel, direction, vertiportPixel, visibility, wayBegin } from '../where'
 import { changed } from './changes'
 import {
   aircraftSize,
@@ -16,7 +18,6 @@ import {
   looksOf,
   OPACITY_OF_STATE,
   stillParts,
-  type Painter,
   type Picture,
 } from './painter'
 import { Sheet } from '../../parts/sheet'
@@ -26,15 +27,14 @@ const TURN = 2 * Math.PI
 /** Aircraft further outside of the picture than this are not drawn. */
 const BEYOND_PX = 20
 
-export class CanvasPainter implements Painter {
-  readonly element = document.createElement('div')
+export class CanvasPainter {
   readonly #still = new Sheet()
   readonly #moving = new Sheet()
   readonly #hasChanged = changed(stillParts)
   #sprites: { colours: Picture['colours']; side: number; sprites: Sprites } | undefined
 
-  constructor() {
-    this.element.append(this.#still.canvas, this.#moving.canvas)
+  get elements(): HTMLElement[] {
+    return [this.#still.canvas, this.#moving.canvas]
   }
 
   paint(picture: Picture): void {
@@ -46,10 +46,6 @@ export class CanvasPainter implements Painter {
     }
     const { aircraft_px } = looksOf(picture)
     paintFleet(this.#moving.begin(picture.size), picture, this.#spritesFor(picture, aircraft_px))
-  }
-
-  destroy(): void {
-    this.element.remove()
   }
 
   /** Pictures as large as the screen shows them, since a canvas draws pictures smaller only coarsely. */

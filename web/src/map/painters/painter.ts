@@ -1,17 +1,13 @@
-// What every painter of the map is given, and what it must do. There are two, which draw the same: on the graphics processor, and
-// on a plain canvas where there is none.
+// The picture that the painters of the map draw, and the sizes and colours that they share.
 
 import { StandState } from '../../model/counts'
-import type { ColourName, Rgb } from '../../parts/colours'
+import type { ColourName } from '../../parts/colours'
 import { vertiportMeant, type Target } from '../../model/target'
-import type { Camera, Size } from '../camera'
+import type { MapView, Size } from '../camera'
 import type { Scene } from '../scene'
 
-export interface Picture {
+export interface Picture extends MapView {
   scene: Scene
-  camera: Camera
-  size: Size
-  colours: Record<ColourName, Rgb>
   hovered: Target | undefined
   selected: Target | undefined
   showsDemand: boolean
@@ -22,13 +18,6 @@ export function stillParts(picture: Picture): unknown[] {
   const { scene, camera, size, colours, hovered, selected, showsDemand } = picture
   const marked = [vertiportMeant(hovered), vertiportMeant(selected)]
   return [scene, scene.revision, camera, size, colours, showsDemand, ...marked]
-}
-
-export interface Painter {
-  /** What is drawn on, to be put into the page. */
-  readonly element: HTMLElement
-  paint(picture: Picture): void
-  destroy(): void
 }
 
 export const COLOUR_OF_STATE: Record<StandState, ColourName> = {

@@ -12,10 +12,7 @@ export const FILLED = 0.78
 const LOADS = 5
 const tones = ['flying', 'waiting', 'bad', 'accent'] as const
 
-export type Tone = (typeof tones)[number]
-
-/** Pixels of one picture for the graphics processor, which draws it smaller well. */
-export const LARGE_SPRITE = 64
+type Tone = (typeof tones)[number]
 
 export interface Sprites {
   image: HTMLCanvasElement

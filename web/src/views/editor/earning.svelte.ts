@@ -2,7 +2,7 @@
 // view as the network does.
 
 import { untrack } from 'svelte'
-import { ProblemError } from '../../api/problem'
+import { refusal, type ProblemError } from '../../api/problem'
 import type { PolicyResult, StudyInfo } from '../../api/types'
 import { session } from '../../state/session.svelte'
 import { toasts } from '../../state/toasts.svelte'
@@ -82,8 +82,7 @@ class Earning {
       if (this.before === undefined && origin !== undefined && origin.toml !== network.toml)
         this.before = await Played.begin(origin, asked)
     } catch (cause) {
-      if (!(cause instanceof ProblemError)) throw cause
-      this.problem = cause
+      this.problem = refusal(cause)
     } finally {
       this.isAsking = false
     }

@@ -1,1 +1,0 @@
-import{t as e}from"./text-DPJtjj3u.js";var t=new Intl.DateTimeFormat(e.language,{year:`numeric`,month:`short`,day:`numeric`,hour:`2-digit`,minute:`2-digit`,hourCycle:`h23`,timeZoneName:`short`}),n=t.resolvedOptions().timeZone;function r(e){return t.format(e)}export{r as n,n as t};
