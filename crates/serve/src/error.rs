@@ -8,8 +8,8 @@ use axum::http::StatusCode;
 use vertifleet_policy::PolicyError;
 use vertifleet_sim::live::ReportError;
 
-/// An expected error of the service. Messages are fragments for people; [`Coded::code`] is for
-/// programs and for the error index.
+/// An expected error of the service. Messages are fragments for people;
+/// [`code`](vertifleet_core::Coded::code) is for programs and for the error index.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
     /// A network, a scenario or a file (V1xx); the error is one of `vertifleet-core`.
