@@ -89,7 +89,8 @@ def _scores(twin: Twin, observation: Mapping[str, Tensor]) -> Tensor:
     """The scores of observations without padding."""
     nodes, aircraft = (observation[twin.features + part] for part in ("nodes", "aircraft"))
     clock = observation["clock"] if "clock" in twin.reads else nodes.new_zeros(len(nodes))
-    logits, _ = twin(nodes, aircraft, clock, None if twin.edges is None else observation[twin.edges])
+    edges = {} if twin.edges is None else {"edges": observation[twin.edges]}
+    logits, _ = twin(nodes, aircraft, clock, **edges)
     if WORTH in twin.reads:
         _check(WORTH, observation[WORTH], logits.shape)
         return masked(logits + observation[WORTH], nodes[..., 0])
