@@ -1,12 +1,13 @@
 //! The one writer of events. It takes all events that wait and commits them together, so that many
 //! clients share the cost of one write to the disk, and answers each when its events are durable.
 
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use tokio::sync::{mpsc, oneshot};
 
+use crate::clock::LastTime;
 use crate::days::DayCell;
 use crate::error::Error;
 use crate::keys::Busy;
@@ -40,36 +41,22 @@ impl Append {
 #[derive(Debug, Clone)]
 pub(crate) struct Committer {
     queue: mpsc::UnboundedSender<Append>,
-    failed: LastFailure,
-}
-
-/// When the store last refused events, by a clock that cannot be set.
-#[derive(Debug, Clone, Default)]
-struct LastFailure(Arc<Mutex<Option<Instant>>>);
-
-impl LastFailure {
-    fn is_now(&self) {
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
-    }
-
-    fn was_a_moment_ago(&self) -> bool {
-        let at = *self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        at.is_some_and(|at| at.elapsed() < A_MOMENT)
-    }
+    /// When the store last refused events.
+    failed: Arc<LastTime>,
 }
 
 impl Committer {
     /// Starts the writer. It ends when the last committer is dropped.
     pub(crate) fn start(store: Store, metrics: Arc<Metrics>) -> Self {
         let (queue, waiting) = mpsc::unbounded_channel();
-        let failed = LastFailure::default();
+        let failed = Arc::<LastTime>::default();
         tokio::spawn(write_all(store, metrics, failed.clone(), waiting));
         Self { queue, failed }
     }
 
     /// Whether the store has refused events a moment ago.
     pub(crate) fn has_failed(&self) -> bool {
-        self.failed.was_a_moment_ago()
+        self.failed.was_within(A_MOMENT)
     }
 
     /// Puts events into the queue. Events of a day must come in their order, so the caller holds
@@ -85,7 +72,7 @@ impl Committer {
 async fn write_all(
     store: Store,
     metrics: Arc<Metrics>,
-    failed: LastFailure,
+    failed: Arc<LastTime>,
     mut waiting: mpsc::UnboundedReceiver<Append>,
 ) {
     let mut batch = Vec::new();
@@ -98,7 +85,7 @@ async fn write_all(
 /// Stores a batch and answers every request in it. If the batch cannot be stored, each of its
 /// requests is tried alone, so that one that conflicts does not fail the others; but a database
 /// that hangs is waited for only once.
-async fn write(store: &Store, metrics: &Metrics, failed: &LastFailure, batch: &mut Vec<Append>) {
+async fn write(store: &Store, metrics: &Metrics, failed: &LastTime, batch: &mut Vec<Append>) {
     let mut together = match &batch[..] {
         [_] => None,
         _ => Some(store_together(store, batch).await),

@@ -2,12 +2,14 @@
 //! keep the old ones until then. While it is not busy, a decision recomputes them itself, so that a
 //! day that is dispatched alone ends as in the simulator, to the last digit.
 
-use std::sync::{Mutex, PoisonError, mpsc};
+use std::sync::mpsc;
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use vertifleet_policy::{Policy, PriceMemory};
 use vertifleet_sim::{Decision, Simulation};
+
+use crate::clock::LastTime;
 
 /// The service stays busy for so long after a decision has had to wait.
 const BUSY: Duration = Duration::from_secs(1);
@@ -17,7 +19,7 @@ const BUSY: Duration = Duration::from_secs(1);
 pub(crate) struct Renewals {
     queue: mpsc::Sender<Renewal>,
     /// When a decision last had to wait for others.
-    awaited_at: Mutex<Option<Instant>>,
+    awaited: LastTime,
 }
 
 /// The prices of a day that are to be recomputed.
@@ -39,16 +41,15 @@ impl Renewals {
                 let _ = found.send(memory);
             }
         });
-        Self { queue, awaited_at: Mutex::default() }
+        Self { queue, awaited: LastTime::default() }
     }
 
     /// This, if the service is busy: a decision waits for others now, or has done so a moment ago.
     pub(crate) fn if_busy(&self, is_awaited: bool) -> Option<&Self> {
-        let mut awaited_at = self.awaited_at.lock().unwrap_or_else(PoisonError::into_inner);
         if is_awaited {
-            *awaited_at = Some(Instant::now());
+            self.awaited.is_now();
         }
-        awaited_at.filter(|at| at.elapsed() < BUSY).map(|_| self)
+        self.awaited.was_within(BUSY).then_some(self)
     }
 }
 

@@ -2,10 +2,11 @@
 //! open, which nothing else notices.
 
 use std::fmt;
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::sync::Arc;
+use std::time::Duration;
 
 use super::Store;
+use crate::clock::LastTime;
 use crate::error::Error;
 
 /// A server that does not answer for so long hangs.
@@ -19,7 +20,7 @@ pub(super) struct Server {
     /// Its address, which may have a password in it.
     pub(super) url: Arc<str>,
     /// When it last failed to answer in time.
-    hung_at: Arc<Mutex<Option<Instant>>>,
+    hung: Arc<LastTime>,
 }
 
 impl fmt::Debug for Server {
@@ -30,18 +31,17 @@ impl fmt::Debug for Server {
 
 impl Server {
     pub(super) fn at(url: &str) -> Self {
-        Self { url: url.into(), hung_at: Arc::default() }
+        Self { url: url.into(), hung: Arc::default() }
     }
 
     async fn in_time<T>(&self, outcome: impl Future<Output = T>) -> Result<T, Error> {
         let hangs = Error::StoreHangs { s: TIMEOUT.as_secs() };
-        let hung_at = || self.hung_at.lock().unwrap_or_else(PoisonError::into_inner);
-        if hung_at().is_some_and(|at| at.elapsed() < PAUSE) {
+        if self.hung.was_within(PAUSE) {
             return Err(hangs);
         }
         let outcome = tokio::time::timeout(TIMEOUT, outcome).await;
         outcome.map_err(|_| {
-            *hung_at() = Some(Instant::now());
+            self.hung.is_now();
             hangs
         })
     }
