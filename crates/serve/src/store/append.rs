@@ -59,7 +59,7 @@ impl Store {
         // A statement has at most 32,766 parameters in SQLite.
         for events in events.chunks(4_000) {
             let sql = "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain, append_id) VALUES ";
-            let sql = sql.to_owned() + &rows(self, events.len(), 8);
+            let sql = sql.to_owned() + &self.places(events.len(), 8);
             let mut insert = query(AssertSqlSafe(sql));
             for NewEvent { day, append: AppendId(append), event } in events {
                 insert = insert
@@ -90,7 +90,7 @@ impl Store {
     ) -> Result<(), Error> {
         for answers in answers.chunks(4_000) {
             let sql = "INSERT INTO answers (idempotency_key, request, answer, at_ms) VALUES ";
-            let mut insert = query(AssertSqlSafe(sql.to_owned() + &rows(self, answers.len(), 4)));
+            let mut insert = query(AssertSqlSafe(sql.to_owned() + &self.places(answers.len(), 4)));
             for answer in answers {
                 insert =
                     insert.bind(&answer.key).bind(&answer.request).bind(&answer.answer).bind(at_ms);
@@ -113,16 +113,16 @@ impl Store {
         let found: Option<i64> = self.in_time(select).await?;
         Ok(found == Some(append.0))
     }
-}
 
-/// The places of the values of some rows, `(?, ?), (?, ?)`; `PostgreSQL` has numbers in them.
-/// `SQLite` would compare each number with all others.
-pub(super) fn rows(store: &Store, rows: usize, columns: usize) -> String {
-    let place = |at: usize| if store.is_shared() { format!("${at}") } else { "?".to_owned() };
-    let row = |row: usize| {
-        let places: Vec<String> =
-            (1..=columns).map(|column| place(row * columns + column)).collect();
-        format!("({})", places.join(", "))
-    };
-    (0..rows).map(row).collect::<Vec<_>>().join(", ")
+    /// The places of the values of some rows, `(?, ?), (?, ?)`; `PostgreSQL` has numbers in them.
+    /// `SQLite` would compare each number with all others.
+    pub(super) fn places(&self, rows: usize, columns: usize) -> String {
+        let place = |at: usize| if self.is_shared() { format!("${at}") } else { "?".to_owned() };
+        let row = |row: usize| {
+            let places: Vec<String> =
+                (1..=columns).map(|column| place(row * columns + column)).collect();
+            format!("({})", places.join(", "))
+        };
+        (0..rows).map(row).collect::<Vec<_>>().join(", ")
+    }
 }

@@ -7,7 +7,6 @@ use sqlx::any::AnyRow;
 use sqlx::query::Query;
 use sqlx::{Any, AssertSqlSafe, Row as _, Transaction, query, query_scalar};
 
-use super::append::rows;
 use super::{NewEvent, Store, as_i64, as_u64};
 use crate::error::Error;
 
@@ -47,7 +46,7 @@ impl Store {
     pub(crate) async fn heads(&self, days: &[String]) -> Result<HashMap<String, Head>, Error> {
         let mut heads = HashMap::new();
         for days in days.chunks(MOST_AT_ONCE) {
-            let places = rows(self, 1, days.len());
+            let places = self.places(1, days.len());
             let select = format!("SELECT id, seq, chain, archived FROM days WHERE id IN {places}");
             let select = days.iter().fold(query(AssertSqlSafe(select)), Query::bind);
             let select = select.fetch_all(self.pool());
@@ -98,12 +97,12 @@ impl Store {
         if self.is_shared() && days.len() > 1 {
             // Services that lock several days do so in one order, or they could wait for each
             // other.
-            let places = rows(self, 1, days.len());
+            let places = self.places(1, days.len());
             let lock = format!("SELECT id FROM days WHERE id IN {places} ORDER BY id FOR UPDATE");
             let lock = days.keys().fold(query(AssertSqlSafe(lock)), |query, day| query.bind(*day));
             lock.execute(&mut **transaction).await?;
         }
-        let values = rows(self, days.len(), 4);
+        let values = self.places(days.len(), 4);
         // Both databases call the columns of bare values `column1` and so on.
         let update = format!(
             "UPDATE days SET seq = new.column3, chain = new.column4 FROM (VALUES {values}) AS new

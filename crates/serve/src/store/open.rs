@@ -157,7 +157,7 @@ impl Store {
         }
         install_default_drivers();
         // What fails in a transaction may leave a connection in an unusable state: when a disk is
-        // full, SQLite ends the transaction by itself, and all that came after would be part of one
+        // full, SQLite ends the transaction, and all that came after would be part of one
         // that is never committed.
         let mut options = AnyPoolOptions::new()
             .max_connections(8)
