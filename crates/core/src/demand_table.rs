@@ -114,7 +114,7 @@ impl Reader<'_> {
         Ok(pairs)
     }
 
-    /// The line of the record that begins at a byte. It is counted anew, because the parser's own
+    /// The line of the record that begins at a byte. It is counted here, because the parser's own
     /// count lags behind where the parser skips empty lines or the second half of a CR LF.
     fn line(&self, begin: usize) -> usize {
         let mut begin = begin.min(self.csv.len());

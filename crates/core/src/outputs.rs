@@ -26,7 +26,7 @@ pub struct OutputKind {
 }
 
 impl OutputKind {
-    /// Whether this program wrote the file, as far as its beginning tells. An empty file holds
+    /// Whether the beginning of the file shows that this program wrote it. An empty file holds
     /// nothing that could be lost, so it counts as one.
     ///
     /// # Errors

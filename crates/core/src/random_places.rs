@@ -1,5 +1,5 @@
 //! The network of the paper at other places, drawn from a number, as the public code of its authors
-//! draws them anew for each day.
+//! draws new ones for each day.
 
 use std::fmt::Write;
 use std::ops::RangeInclusive;

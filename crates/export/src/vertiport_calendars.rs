@@ -139,7 +139,7 @@ impl Writer<'_> {
     }
 }
 
-/// The text with its long lines folded anew. The `icalendar` crate folds them too, but its last
+/// The text with its long lines folded again. The `icalendar` crate folds them too, but its last
 /// part of a line may have 76 bytes, one more than RFC 5545 grants.
 fn folded(text: &str) -> String {
     const MOST: usize = 75;

@@ -1,7 +1,7 @@
 //! The text of the network file: the base's text, with what the planner's files say in place of
 //! what the base says.
 //!
-//! The text is edited and not written anew, so that comments stay beside what they explain.
+//! The text is edited, not rewritten, so that comments stay beside what they explain.
 //! Whatever belongs to the vertiports or the demand of the base is removed or adapted, and the file
 //! says so.
 

@@ -73,7 +73,7 @@ impl Row<'_> {
 
     /// The place of the row at this position in the same file, in words.
     ///
-    /// Lines are counted anew, because the parser's own count lags behind where it skips empty
+    /// Lines are counted here, because the parser's own count lags behind where it skips empty
     /// lines or the second half of a CR LF.
     pub(crate) fn place_of(&self, position: usize) -> String {
         match self.positions {

@@ -2,7 +2,7 @@
 //! with the highest value.
 //!
 //! This is a rolling horizon in two parts. For the time to the end of the day, the problem of the
-//! whole fleet is solved anew every quarter of an hour from its current state, with stands and
+//! whole fleet is solved again every quarter of an hour from its current state, with stands and
 //! passengers priced ([`DayPrices`]). For the next two hours, each choice of a shortlist is played
 //! out in the simulator several times, with every aircraft following the base rule; the fleet's
 //! profit until then and its worth at that time decide. The policy does not look at a clock, so the

@@ -121,7 +121,7 @@ impl Map {
     /// How names of vertiports are written.
     pub(crate) const NAME: Lettering = Lettering { size: 12.0, ..Lettering::LABEL.bold() };
 
-    /// The name of a vertiport, as far as there is room for it.
+    /// The id of a vertiport, shortened to 12 characters.
     pub(crate) fn short_name(day: &Scenario, at: VertiportIx) -> String {
         crate::canvas::shortened(&day.vertiports[at.at()].id, 12)
     }

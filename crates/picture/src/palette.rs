@@ -42,7 +42,7 @@ const SERIES: [Tone; 8] = [
 const DASHES: [Option<&str>; 5] = [None, Some("7 4"), Some("2 3"), Some("10 3 2 3"), Some("14 4")];
 
 impl Paint {
-    /// The colour on a light background, as in an SVG file by itself.
+    /// The colour on a light background, as in a separate SVG file.
     pub fn colour(self) -> &'static str {
         self.tone().light
     }

@@ -1,5 +1,5 @@
-//! The time to find the prices of a `paper` day, to find them anew and to decide by them, and to
-//! find them anew on a day of 100 vertiports and 2,000 aircraft and to play it.
+//! The time to find the prices of a `paper` day, to recompute them and to decide by them, and to
+//! recompute them on a day of 100 vertiports and 2,000 aircraft and to play it.
 
 use std::fmt::Write;
 use std::hint::black_box;
@@ -36,7 +36,7 @@ fn prices(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// The time to find prices of the morning anew after a quarter of an hour.
+/// The time to recompute the prices of the morning after a quarter of an hour.
 fn bench_renewal(
     group: &mut BenchmarkGroup<'_, WallTime>,
     name: &str,

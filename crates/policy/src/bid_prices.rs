@@ -1,4 +1,4 @@
-//! `prices`: takes the choice that is worth most at the bid prices of the day, which are found anew
+//! `prices`: takes the choice that is worth most at the bid prices of the day, which are recomputed
 //! every quarter of an hour.
 
 use vertifleet_core::VertiportIx;

@@ -22,7 +22,7 @@ struct Kept {
 }
 
 impl PriceMemory {
-    /// The prices for a decision, refreshed where they are due to be. They are found anew if the
+    /// The prices for a decision, refreshed where they are due to be. They are recomputed if the
     /// day is not the one before, or starts again.
     pub fn at(&mut self, view: View<'_>, decision: &Decision) -> &mut DayPrices {
         let mut prices = match self.kept.take() {

@@ -2,7 +2,7 @@
 //! of the right to carry a passenger, and the worth, at these prices, of being ready somewhere.
 //!
 //! If every aircraft pays for the stands that it takes and the passengers that it carries, each can
-//! decide by itself, and at the right prices the fleet shares the scarce resources (Lagrangian
+//! decide alone, and at the right prices the fleet shares the scarce resources (Lagrangian
 //! relaxation of Eq. 16 and of the demand; revenue management calls the prices bid prices). Prices
 //! are found by search (`prices/volume.rs`) over the decisions of the fleet at given prices
 //! (`prices/relaxation.rs`). They are computed from a [`View`], so the future enters as its
@@ -47,11 +47,11 @@ const AGAIN: Effort = Effort { passes: 150, hops: 37_000_000, step: 0.1 };
 /// Effort of a service that is busy. Days of `paper` and of `new-york` earn 0.2 % less with it than
 /// with `AGAIN`.
 const BRIEFLY: Effort = Effort { passes: 50, ..AGAIN };
-/// Seconds after which prices are found anew. On days of `paper`, 5 minutes earned no more.
+/// Seconds after which prices are recomputed. On days of `paper`, 5 minutes earned no more.
 const RENEWAL_S: u32 = 900;
 /// Older prices are not used, not even for a moment.
 const OLDEST_S: u32 = 3_600;
-/// Seconds after which the base rule is chosen anew.
+/// Seconds after which the base rule is chosen again.
 const BASE_RULE_RENEWAL_S: u32 = 3_600;
 
 /// Prices for the rest of a day, and the worth of every choice at them.
@@ -118,7 +118,7 @@ impl DayPrices {
     }
 
     /// Updates the prices as the day goes on. After a quarter of an hour, and at once when a route
-    /// closes or opens unexpectedly, they are found anew, starting from the old ones, with the
+    /// closes or opens unexpectedly, they are recomputed, starting from the old ones, with the
     /// current fleet and demand. `now` is the view's time, later on the same day.
     pub fn refresh(&mut self, view: View<'_>, now: Time) {
         if self.is_old(now) || view.route_changes() != self.route_changes {
@@ -126,7 +126,7 @@ impl DayPrices {
         }
     }
 
-    /// Finds the prices anew at `now`, with a third of the passes of [`refresh`](Self::refresh).
+    /// Recomputes the prices at `now`, with a third of the passes of [`refresh`](Self::refresh).
     pub(crate) fn refresh_briefly(&mut self, view: View<'_>, now: Time) {
         self.search_again(view, now, BRIEFLY);
     }
@@ -226,7 +226,7 @@ impl DayPrices {
     }
 
     /// Makes [`best_with`](Self::best_with) fast for decisions up to `ahead_s` after each decision
-    /// until the prices are found anew. `view` is of the day of the prices.
+    /// until the prices are recomputed. `view` is of the day of the prices.
     pub(crate) fn rank(&self, view: View<'_>, ahead_s: u32) {
         self.ranks.get_or_init(|| {
             let until = self.made_at + RENEWAL_S + ahead_s;

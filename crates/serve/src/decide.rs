@@ -146,7 +146,7 @@ impl Deciders {
         if deciders.len() >= Self::MOST
             && let Some(other) = deciders.keys().next().cloned()
         {
-            // It finds its prices anew when it is asked again.
+            // It recomputes its prices when it is asked again.
             deciders.remove(&other);
         }
         let decider = Decider {

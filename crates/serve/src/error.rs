@@ -98,7 +98,7 @@ pub enum Error {
     /// V605 the day has gone on. The request was made for an earlier state (`If-Match`), and
     /// another client has added an event since.
     ///
-    /// Fix: read the day again, and decide anew.
+    /// Fix: read the day again, and decide again.
     #[error("the day is at event {found}, and the request was made for event {expected}")]
     Moved {
         /// The sequence number in the request.

@@ -172,7 +172,7 @@ impl Client {
         self.answer(self.request(method, uri, body)).await
     }
 
-    /// The answer to a request that was carried out, as far as it is JSON. The others must have
+    /// The answer to a request that was carried out, if it is JSON. The others must have
     /// been refused for a reason.
     async fn answer(&mut self, request: Request<Body>) -> Option<Value> {
         let asked = format!("{} {}", request.method(), request.uri());

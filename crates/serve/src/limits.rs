@@ -43,7 +43,7 @@ impl Default for Limits {
 const OTHER_FILES: u64 = 256;
 
 impl Limits {
-    /// Connections at once, as far as the operating system lets this process have files.
+    /// Connections at once; the operating system may limit the files of this process to fewer.
     pub(crate) fn connections_here(self) -> usize {
         let files = rlimit::increase_nofile_limit(u64::MAX).unwrap_or(u64::MAX);
         let most = usize::try_from(files.saturating_sub(OTHER_FILES)).unwrap_or(usize::MAX);

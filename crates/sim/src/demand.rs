@@ -6,7 +6,7 @@ use vertifleet_core::{Matrix, Scenario, VertiportIx};
 
 use crate::room::clone_into_room;
 
-/// The rest of the day's demand as far as it is known: actual demand in periods that have begun,
+/// The known demand of the rest of the day: actual demand in periods that have begun,
 /// and the forecast in later ones. A flight takes its passengers at the moment it is decided.
 ///
 /// On days whose passengers wait, those who are left when a period ends are counted in the next
@@ -184,7 +184,7 @@ impl Demand {
         self.left.len()
     }
 
-    /// Counts the passengers of the whole day anew: those who still want to fly, and those who
+    /// Recounts the passengers of the whole day: those who still want to fly, and those who
     /// have.
     pub(crate) fn set_total(&mut self, boarded: &[u32]) {
         self.total = self.left.iter().chain(boarded).map(|&passengers| u64::from(passengers)).sum();

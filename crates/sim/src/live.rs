@@ -121,7 +121,7 @@ struct Before {
     waited: bool,
 }
 
-/// An aircraft as far as it is known.
+/// What is known of an aircraft.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AircraftNow {
     /// The aircraft.

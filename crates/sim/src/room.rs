@@ -1,7 +1,7 @@
 //! Copies that reuse memory: days are imagined over and over, and only the first of them allocates.
 
 /// Implements `Clone` for a struct with these fields, so that `clone_from` copies field by field
-/// into the memory of the old value. A derived `Clone` would free that memory and allocate anew.
+/// into the memory of the old value. A derived `Clone` would free that memory first.
 macro_rules! clone_into_room {
     ($name:ident { $($field:ident),+ $(,)? }) => {
         impl Clone for $name {

@@ -324,7 +324,7 @@ impl Simulation {
         mask
     }
 
-    /// The time at which an aircraft is expected to be ready, as far as is known now.
+    /// The time at which an aircraft is expected to be ready, from what is known now.
     #[inline]
     pub(crate) fn expected_ready(&self, aircraft: AircraftIx) -> Time {
         if !self.surprises || self.outages.is_empty() {

@@ -168,7 +168,7 @@ pub enum Error {
     /// was when the suite was frozen, so results would not compare with those of others. This build
     /// has another network of that name, or another way of drawing days.
     ///
-    /// Fix: use a release. In a changed build of your own, freeze the suites anew with `make
+    /// Fix: use a release. In a changed build of your own, freeze the suites again with `make
     /// suites`, and do not publish results under their names.
     #[error("suite {suite:?} is no longer what was frozen: {day}")]
     SuiteChanged {

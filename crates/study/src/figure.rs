@@ -3,7 +3,7 @@
 //!
 //! Every figure names its marks in words and tells its series apart by marker, dash or place as
 //! well as by colour, so that it reads the same in grey. Colours are set twice: as attributes, for
-//! the SVG file by itself, and as classes, which the style sheet of a page may override for a dark
+//! the separate SVG file, and as classes, which the style sheet of a page may override for a dark
 //! background.
 
 mod box_plot;

@@ -172,7 +172,7 @@ fn record(day: &BoundedDay, simulation: &Simulation, choices: Vec<VertiportIx>) 
     }
 }
 
-/// A policy whose every choice is timed by itself, as a dispatcher would ask for it, until a stop
+/// A policy whose every choice is timed separately, as a dispatcher would ask for it, until a stop
 /// is requested.
 struct Timed<'a> {
     policy: Stoppable<'a, dyn Policy>,

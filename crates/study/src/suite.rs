@@ -242,7 +242,7 @@ impl Suite {
         Ok(Step::from_minutes(self.step_minutes)?)
     }
 
-    /// Proves the bounds of all days anew, and returns the text of the suite's table. `bounded` is
+    /// Proves the bounds of all days again, and returns the text of the suite's table. `bounded` is
     /// called after each day, from any thread.
     ///
     /// # Errors

@@ -146,7 +146,7 @@ fn trips(arguments: &ImportArguments) -> Result<Trips<'_>, Failure> {
     })
 }
 
-/// The columns of the trip records as far as they are named, each once.
+/// The columns of the trip records that are named, each once.
 fn trip_columns(named: &[(TripValue, String)]) -> Result<TripColumns<'_>, Failure> {
     let mut columns = TripColumns::default();
     for (at, (value, column)) in named.iter().enumerate() {

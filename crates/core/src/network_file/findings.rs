@@ -1,7 +1,7 @@
 //! Every finding about a network file at once, for people who are writing one.
 //!
 //! Reading stops at the first error, because later checks rely on earlier ones. Here each entry of
-//! each list is checked by itself, and what refers to vertiports is checked if these are sound. A
+//! each list is checked alone, and what refers to vertiports is checked if these are sound. A
 //! text that cannot be parsed has one finding.
 
 use std::path::Path;

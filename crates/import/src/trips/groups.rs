@@ -73,7 +73,7 @@ pub(super) fn read(files: &[(usize, &Path)], reading: &Reading<'_>) -> Result<()
     parts.par_iter().try_for_each(|part| part.add(reading))
 }
 
-/// Opens a file and returns its length too. Each thread opens files anew, because handles of one
+/// Opens a file and returns its length too. Each thread opens its own files, because handles of one
 /// opening share the position at which they read.
 fn open(path: &Path) -> Result<(ParquetFile, u64), Error> {
     let cannot = |cause| cannot_read(path, cause);

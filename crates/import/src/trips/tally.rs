@@ -25,7 +25,7 @@ const UNITS: f64 = (1_u64 << 30) as f64;
 const MOST_PASSENGERS: f64 = 100.0;
 const HOUR_S: u32 = 3600;
 
-/// A trip record as far as it could be read.
+/// What could be read of a trip record.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Record<'row> {
     pub(super) position: Position,

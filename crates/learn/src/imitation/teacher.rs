@@ -45,7 +45,7 @@ enum Writer {
     Full(full::Writer),
 }
 
-/// The policy that plays the days, as far as it has learned.
+/// The policy that plays the days, with what it has learned so far.
 pub(super) enum Student {
     Paper(Box<Learned>),
     Priced(Box<Scorer>),

@@ -1,4 +1,4 @@
-//! Checks slopes against finite differences: every layer by itself, then both networks as a whole.
+//! Checks slopes against finite differences: each layer alone, then both networks as a whole.
 //!
 //! A layer is checked with the loss `sum of outputs times fixed numbers`, entry by entry, by
 //! central differences. Single precision leaves about three digits. That is enough: an error in a

@@ -100,7 +100,7 @@ impl Bound {
         evaluated.expect("it is not stopped");
         let mut aircraft = vec![0; probe.aircraft_types.len()];
         for (number, layer) in day.layers.iter().enumerate() {
-            // Where it starts is drawn anew for every design, so the best start counts.
+            // Where it starts is drawn again for every design, so the best start counts.
             let worths = (0..size).map(|at| certificate.worth_less_paid(&day, number, at, 0));
             aircraft[layer.kind.at()] = worths.max().map_or(0, i128::from);
         }

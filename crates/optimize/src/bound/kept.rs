@@ -1,6 +1,6 @@
 //! Prices of bounds kept in files, so that a day's bound is searched for only once.
 //!
-//! A file holds prices and not a bound; the bound that they prove is computed anew. A file that is
+//! A file holds prices and not a bound; the bound that they prove is recomputed. A file that is
 //! damaged, of another day or made up can therefore never give a wrong bound, at worst a loose one.
 //! The name is a hash of everything that the prices depend on.
 

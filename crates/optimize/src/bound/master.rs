@@ -192,7 +192,7 @@ impl<'a> Master<'a> {
         Groups { groups: self.groups, reach: self.reach }
     }
 
-    /// Computes the excess anew.
+    /// Recomputes the excess.
     fn count(&mut self) {
         let size = self.day.size();
         for (excess, &stands) in self.stand_excess.iter_mut().zip(&self.day.stands) {

@@ -1,4 +1,4 @@
-//! A proof in progress: its best bound so far, how it is stopped, and when it ends by itself.
+//! A proof in progress: its best bound so far, how it is stopped, and when it ends unasked.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};

@@ -22,7 +22,7 @@ fn roll_outs_on_several_threads_have_the_values_of_roll_outs_on_one() {
                 let mut evaluator = RolloutEvaluator::new(settings.clone());
                 evaluator.values_usd(&prices, simulation.view(), &decision, listed).to_vec()
             };
-            // A thread of a pool rolls out by itself.
+            // A thread of a pool rolls out on its own.
             let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
             assert_eq!(values_usd(), pool.install(values_usd));
             compared += 1;

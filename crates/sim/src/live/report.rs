@@ -278,7 +278,7 @@ pub enum ReportError {
         /// When it departed, or was sent off.
         departed: Time,
     },
-    /// The aircraft is on its way, as far as has been reported.
+    /// The aircraft is on its way, by the latest report.
     #[error("aircraft {aircraft:?} cannot decide: it {is}")]
     OnItsWay {
         /// The aircraft.

@@ -4,7 +4,7 @@ use vertifleet_core::{Closure, Error, Matrix, Route, Scenario, Time, VertiportIx
 
 use super::LiveDay;
 
-/// What is left of a day as far as it is known. A schedule of it earns what the flights earn that
+/// What is known of the rest of a day. A schedule of it earns what the flights earn that
 /// are still to be decided.
 #[derive(Debug, Clone)]
 pub struct RemainingDay {

@@ -169,7 +169,7 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The line on which a record starts. It is counted anew, because the parser's own count lags
+    /// The line on which a record starts. It is counted here, because the parser's own count lags
     /// behind where the parser skips empty lines or the second half of a CR LF.
     fn line(&self, record: &ByteRecord) -> usize {
         let position = record.position().map_or(0, csv::Position::byte);

@@ -253,7 +253,7 @@ impl ComparisonReport {
         serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
     }
 
-    /// The page of the report by itself, as HTML, with the replay of these days in it.
+    /// The page of the report alone, as HTML, with the replay of these days in it.
     pub fn page(&self, replayed: &[ReplayedDay]) -> String {
         let replay = (!replayed.is_empty()).then(|| crate::replay::page(replayed));
         let within = replay.as_ref().map(|page| super::page::Replay { days: replayed.len(), page });

@@ -1,4 +1,4 @@
-//! Verifies a result: its days are drawn anew, its choices are played, the schedules are judged by
+//! Verifies a result: its days are drawn again, its choices are played, the schedules are judged by
 //! the independent checker, and everything that is claimed is computed again.
 
 use std::fmt::{self, Write as _};
@@ -36,9 +36,9 @@ pub struct Verification {
     pub days: usize,
     /// Whether every claim holds that can be verified.
     pub valid: bool,
-    /// The share of the bounds as computed anew; `None` if a day cannot be played.
+    /// The share of the bounds as recomputed; `None` if a day cannot be played.
     pub bound_share: Option<Estimate>,
-    /// The profit as computed anew, in dollars; `None` if a day cannot be played.
+    /// The profit as recomputed, in dollars; `None` if a day cannot be played.
     pub profit_usd: Option<Estimate>,
     /// What does not hold.
     pub findings: Vec<String>,

@@ -1,6 +1,6 @@
 //! What the bounds of a day and of its changes prove together.
 //!
-//! Each bound is searched for by itself, and each search stops a little above the lowest bound, so
+//! Each bound is searched for separately, and each search stops a little above the lowest bound, so
 //! the plain difference of two bounds may be more than a change can be worth, or less than nothing
 //! where the change cannot harm. But the prices of one bound prove bounds of the other days too
 //! (docs/src/concepts/bound.md, "What the prices say"), since these days differ in one number of

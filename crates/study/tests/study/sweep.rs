@@ -86,7 +86,7 @@ fn an_interrupted_sweep_ends_with_the_same_bytes() {
     let journal = &expected[JOURNAL];
     for kept in [0, 10, journal.len() / 3, journal.len() / 2, journal.len() - 1] {
         let folder = tempfile::tempdir().expect("a folder");
-        // A journal that ends within its first line is no journal, which begins the sweep anew only
+        // A journal that ends within its first line is refused, and the sweep begins again only
         // if it is empty.
         let head = journal.iter().position(|&byte| byte == b'\n').expect("a line") + 1;
         let kept = if kept == 0 { 0 } else { kept.max(head) };

@@ -1,4 +1,4 @@
-// The picture that the painters of the map draw, and the sizes and colours that they share.
+// The picture that the painter of the map draws, with its sizes and colours.
 
 import { StandState } from '../../model/counts'
 import type { ColourName } from '../../parts/colours'
