@@ -1,7 +1,7 @@
 //! `compare`: many policies on many days.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use pyo3::prelude::*;
@@ -9,9 +9,9 @@ use pyo3::types::PyDict;
 use vertifleet_core::{self as core, Stop};
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
+use vertifleet_report::{comparison_folder, folder};
 use vertifleet_study::comparison::DrawnDays;
 use vertifleet_study::competitor::Selection;
-use vertifleet_study::report::{self, Records};
 use vertifleet_study::{
     ComparisonRecords, ComparisonReport, DayRecord, Error, MOST_DAYS, OwnDays, PolicySource,
     comparison,
@@ -82,7 +82,7 @@ impl Comparison {
     /// per decision.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        loads(py, &self.study.json().map_err(Failure::from)?)
+        loads(py, &self.statistics()?.to_json())
     }
 
     /// Writes a table, figures and a report page into a folder, and returns the path of the page. An earlier report in
@@ -90,7 +90,13 @@ impl Comparison {
     /// with `force`, kept under another name.
     #[pyo3(signature = (folder, *, force = false))]
     fn report(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<PathBuf> {
-        write_report(py, &self.study, &folder, force)
+        let written = py.detach(|| -> Result<_, Failure> {
+            Ok(folder::write(&comparison_folder(&self.statistics()?, &self.study), &folder, force)?)
+        })?;
+        if let Some(kept) = &written.kept {
+            warn(py, &format!("what was there before is now {}", kept.display()))?;
+        }
+        Ok(written.page)
     }
 
     /// Joins comparisons of the same policies into one. Each part must begin with the day after the last day of the
@@ -119,11 +125,11 @@ impl Comparison {
     }
 
     fn _repr_html_(&self) -> Result<String, Failure> {
-        Ok(ComparisonReport::of(&self.study)?.html())
+        Ok(comparison_folder(&self.statistics()?, &self.study).tables_html())
     }
 
     fn __str__(&self) -> Result<String, Failure> {
-        Ok(self.study.text()?)
+        Ok(comparison_folder(&self.statistics()?, &self.study).text())
     }
 
     fn __repr__(&self) -> String {
@@ -141,6 +147,10 @@ impl Comparison {
     /// A comparison with these records.
     pub(crate) fn new(study: ComparisonRecords, warnings: Vec<String>) -> Self {
         Self { study, warnings }
+    }
+
+    fn statistics(&self) -> Result<ComparisonReport, Failure> {
+        Ok(ComparisonReport::of(&self.study)?)
     }
 
     /// The records of the comparison.
@@ -238,20 +248,6 @@ impl Days {
             }
         })
     }
-}
-
-/// Writes the report of a study into a folder, and returns the path of its page.
-pub(crate) fn write_report(
-    py: Python<'_>,
-    study: &(impl Records + Sync),
-    folder: &Path,
-    force: bool,
-) -> PyResult<PathBuf> {
-    let paths = py.detach(|| report::write(study, folder, force)).map_err(Failure::from)?;
-    if let Some(kept) = &paths.kept {
-        warn(py, &format!("what was there before is now {}", kept.display()))?;
-    }
-    Ok(paths.page)
 }
 
 /// Checks everything about a comparison that can be checked before its days are played, and returns the warnings.

@@ -135,11 +135,11 @@ impl Evaluation {
     }
 
     fn _repr_html_(&self) -> Result<String, Failure> {
-        Ok(self.report()?.html())
+        Ok(vertifleet_report::evaluation(&self.report()?).tables_html())
     }
 
     fn __str__(&self) -> Result<String, Failure> {
-        Ok(self.report()?.text())
+        Ok(vertifleet_report::evaluation(&self.report()?).text())
     }
 
     fn __repr__(&self) -> String {

@@ -8,8 +8,10 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 use serde::Deserialize;
 use serde_json::Value;
+use vertifleet_core::check_folder;
+use vertifleet_report::folder;
 use vertifleet_study::ComparisonRecords;
-use vertifleet_study::sweep::{Cell, Design, Factor, Levels, Sweep};
+use vertifleet_study::sweep::{Cell, Design, Factor, Levels, Sweep, SweepReport};
 
 use crate::comparison::Comparison;
 use crate::failure::Failure;
@@ -99,14 +101,17 @@ pub(crate) fn sweep_report(
         values.into_iter().zip(comparisons).collect();
     let network = &network.network;
     let write = || {
-        Sweep::check_folder(&folder, force)?;
+        check_folder(&folder, &folder::SWEEP, force)?;
         let (sweep, records) = Sweep::of_comparisons(network, &paths, cells)?;
         fs::create_dir_all(&folder).map_err(|cause| vertifleet_study::Error::CannotMakeFolder {
             path: folder.clone(),
             cause,
         })?;
-        sweep.records(records, command).write(&folder)
+        let records = sweep.records(records, command);
+        let summary = SweepReport::of(&records)?;
+        records.write_journal(&folder)?;
+        let report = vertifleet_report::sweep(&summary, &records);
+        Ok::<_, vertifleet_study::Error>(folder::write_beside_journal(&report, &folder)?.page)
     };
-    py.detach(write).map_err(Failure::from)?;
-    Ok(folder.join("report.html"))
+    Ok(py.detach(write).map_err(Failure::from)?)
 }

@@ -22,12 +22,12 @@ use std::path::Path;
 
 use anstream::eprintln;
 use vertifleet_core::{Network, Outputs, Scenario, World};
-use vertifleet_study::report::{self, Records};
+use vertifleet_report::folder;
 use vertifleet_study::{PolicySource, PolicySpec};
 
 use crate::args::PresentedArguments;
 use crate::failure::Failure;
-use crate::output::{print, warn};
+use crate::output::warn;
 
 /// Most warnings about many days that are printed one by one.
 const MOST_WARNINGS: usize = 10;
@@ -107,20 +107,7 @@ fn warn_of_demand(network: &Network) {
 fn claim_report(arguments: &PresentedArguments, outputs: &mut Outputs) -> Result<(), Failure> {
     if let Some(folder) = &arguments.report {
         outputs.replaces_folder(folder)?;
-        report::check_folder(folder, arguments.force)?;
-    }
-    Ok(())
-}
-
-/// Prints a study, and writes its report where one is asked for.
-fn present(study: &impl Records, arguments: &PresentedArguments) -> Result<(), Failure> {
-    print(&if arguments.json { study.json()? } else { study.text()? })?;
-    if let Some(folder) = &arguments.report {
-        let written = report::write(study, folder, arguments.force)?;
-        if let Some(kept) = &written.kept {
-            eprintln!("what was there before is now {}", kept.display());
-        }
-        eprintln!("report: {}", written.page.display());
+        folder::check(folder, arguments.force)?;
     }
     Ok(())
 }

@@ -61,5 +61,5 @@ pub use output_kinds::{CSV_FILE, GEOJSON_FILE, GTFS_FILE, ICALENDAR_FILE, PARQUE
 pub use parquet_table::parquet;
 pub use spreadsheet::csv;
 pub use transit_feed::gtfs;
-pub use typed_table::{Cells, TypedColumn, typed_table};
+pub use typed_table::{Cells, TypedColumn, csv_table, typed_table};
 pub use vertiport_calendars::{VertiportCalendar, icalendar};

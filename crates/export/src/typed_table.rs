@@ -1,7 +1,7 @@
-//! Tables of typed columns as Parquet files, for data frames and databases.
+//! Tables of typed columns as Parquet files, for data frames and databases, and as CSV.
 //!
-//! All rows stand in one row group, compressed with zstd. The same table gives the same bytes on
-//! every machine.
+//! In Parquet, all rows stand in one row group, compressed with zstd. The same table gives the same
+//! bytes on every machine.
 
 use std::sync::Arc;
 
@@ -56,6 +56,43 @@ pub enum Cells {
 pub fn typed_table(rows: &str, columns: &[TypedColumn], metadata: &[(&str, String)]) -> Vec<u8> {
     written(rows, columns, metadata)
         .expect("memory takes every byte, and the columns are those of the schema")
+}
+
+/// The table as CSV with a header row. A cell that is missing is empty.
+///
+/// # Panics
+/// Panics if columns have different numbers of cells.
+pub fn csv_table(columns: &[TypedColumn]) -> Vec<u8> {
+    const TO_MEMORY: &str = "memory takes every row";
+    let mut writer = csv::WriterBuilder::new().has_headers(false).from_writer(Vec::new());
+    writer.write_record(columns.iter().map(|column| &column.name)).expect(TO_MEMORY);
+    let texts: Vec<Vec<String>> = columns.iter().map(|column| column.cells.texts()).collect();
+    for row in 0..texts.first().map_or(0, Vec::len) {
+        writer.write_record(texts.iter().map(|column| &column[row])).expect(TO_MEMORY);
+    }
+    writer.into_inner().expect(TO_MEMORY)
+}
+
+impl Cells {
+    /// The cells as texts.
+    fn texts(&self) -> Vec<String> {
+        fn all<T: ToString>(cells: &[T]) -> Vec<String> {
+            cells.iter().map(T::to_string).collect()
+        }
+        fn present<T: ToString>(cells: &[Option<T>]) -> Vec<String> {
+            cells.iter().map(|cell| cell.as_ref().map_or_else(String::new, T::to_string)).collect()
+        }
+        match self {
+            Self::Text(cells) => cells.clone(),
+            Self::OptionalText(cells) => present(cells),
+            Self::Flag(cells) => all(cells),
+            Self::Short(cells) => all(cells),
+            Self::Whole(cells) | Self::Instant(cells) => all(cells),
+            Self::OptionalWhole(cells) => present(cells),
+            Self::Number(cells) => all(cells),
+            Self::OptionalNumber(cells) => present(cells),
+        }
+    }
 }
 
 fn written(

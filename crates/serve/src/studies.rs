@@ -17,8 +17,8 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use serde::Serialize;
 use utoipa::ToSchema;
 use vertifleet_core::Stop;
+use vertifleet_report::replay_json;
 use vertifleet_study::record::ReplayedDay;
-use vertifleet_study::replay;
 use vertifleet_study::{ComparisonReport, NetworkOrigin};
 
 pub(crate) use self::asked::{Asked, NewStudy, Split};
@@ -197,7 +197,9 @@ impl Studies {
     /// Returns [`Error::NotFound`] if there is no such study, or if it has not finished.
     pub(crate) fn page(&self, id: &str) -> Result<String, Error> {
         match &*lock(&self.find(id)?.stage) {
-            Stage::Finished { report, replayed, .. } => Ok(report.page(replayed)),
+            Stage::Finished { report, replayed, .. } => {
+                Ok(vertifleet_report::comparison(report, replayed).page())
+            }
             _ => Err(Error::not_found("report of study", id)),
         }
     }
@@ -208,7 +210,7 @@ impl Studies {
     /// Returns [`Error::NotFound`] if there is no such study, or if it has not finished.
     pub(crate) fn replay(&self, id: &str) -> Result<String, Error> {
         match &*lock(&self.find(id)?.stage) {
-            Stage::Finished { replayed, .. } => Ok(replay::json(replayed)),
+            Stage::Finished { replayed, .. } => Ok(replay_json(replayed)),
             _ => Err(Error::not_found("replay of study", id)),
         }
     }

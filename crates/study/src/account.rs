@@ -1,31 +1,20 @@
-//! A played day in numbers and on a page: who was carried and who was not, how full the vertiports
-//! were, what every aircraft did, and where the money went.
-//!
-//! The page is what `simulate --report` writes. An [explanation](crate::explain) is the same
-//! account with what things are worth, and its page is this page with these sections beside it.
+//! A played day in numbers: who was carried and who was not, how full the vertiports were, what
+//! every aircraft did, and where the money went.
 
 mod losses;
-pub(crate) mod page;
-pub(crate) mod table;
 mod usage;
 
 use std::sync::Arc;
 
 use serde::Serialize;
-use vertifleet_core::{OutputKind, Scenario};
+use vertifleet_core::Scenario;
 use vertifleet_optimize::Bound;
-use vertifleet_picture::numbers::grouped;
 use vertifleet_sim::{DayTotals, Trace};
+
+use crate::record::{Play, ReplayedDay};
 
 pub use losses::{CellLoss, Loss, PairLoss, PeriodLoss};
 pub use usage::{AircraftUse, StandWorth, VertiportUse};
-
-/// The beginning of every page of a played day.
-pub const PAGE: OutputKind = OutputKind {
-    name: "page of a day",
-    skipped: 0,
-    opening: "<!DOCTYPE html>\n<!-- vertifleet-day/",
-};
 
 /// A played day in numbers.
 #[derive(Debug, Clone, Serialize)]
@@ -88,27 +77,27 @@ impl Account {
     }
 
     /// What passengers who were not carried would have paid less what carrying them costs, dollars.
-    pub(crate) fn spilled_margin_usd(&self) -> f64 {
+    pub fn spilled_margin_usd(&self) -> f64 {
         self.periods.iter().map(|one| one.demand.spilled_margin_usd).sum()
     }
 
-    /// How much of the money that is spilled no aircraft can earn, as the end of a sentence; empty
-    /// if no passenger is spilled there.
-    pub(crate) fn spilled_out_of_reach(&self, dollars: impl Fn(f64) -> String) -> String {
-        let Loss { spilled, spilled_margin_usd, .. } = self.cannot_be_flown;
-        if spilled == 0 {
-            return String::new();
-        }
-        format!(
-            "; {} of it and {} of these passengers are on pairs that no aircraft can fly, for want of a corridor or of range",
-            dollars(spilled_margin_usd),
-            grouped(spilled as f64, 0),
-        )
+    /// The day that was played.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
     }
 
-    /// The account as a page: ledger, map, aircraft, stands, demand, all tables, and the replay of
-    /// the day.
-    pub fn page(&self) -> String {
-        page::text(self, &page::PageExtras::default())
+    /// Every decision of the day.
+    pub fn trace(&self) -> &Trace {
+        &self.trace
+    }
+
+    /// The day for a replay.
+    pub fn replayed(&self) -> ReplayedDay {
+        let play = Play {
+            policy: self.policy.clone(),
+            trace: self.trace.clone(),
+            profit_usd: self.totals.profit_usd,
+        };
+        ReplayedDay { scenario: Arc::clone(&self.scenario), plays: vec![play] }
     }
 }

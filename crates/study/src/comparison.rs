@@ -1,11 +1,7 @@
 //! A comparison: from the request, which names competitors, days and a bound, to the records.
 
-mod days_csv;
-mod headline;
 mod join;
-mod page;
 mod summary;
-mod table;
 
 use std::sync::Arc;
 
@@ -15,12 +11,10 @@ use vertifleet_optimize::Step;
 
 use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
-use crate::figure;
 use crate::origin::NetworkOrigin;
 use crate::own_days::OwnDays;
 use crate::record::ComparisonRecords;
 use crate::replay;
-use crate::report::{File, Records, pictures};
 use crate::run::Kept;
 use crate::study::{Bounds, Study, Watch};
 
@@ -179,31 +173,5 @@ impl Comparison {
             policies,
             replayed,
         })
-    }
-}
-
-impl Records for ComparisonRecords {
-    fn text(&self) -> Result<String, Error> {
-        Ok(table::text(&ComparisonReport::of(self)?))
-    }
-
-    fn json(&self) -> Result<String, Error> {
-        Ok(ComparisonReport::of(self)?.to_json())
-    }
-
-    fn files(&self) -> Result<Vec<File>, Error> {
-        let summary = ComparisonReport::of(self)?;
-        let figures = figure::all(&summary);
-        let replayed = (!self.replayed.is_empty()).then(|| replay::page(&self.replayed));
-        let within = replayed.as_ref().map(|page| page::Replay { days: self.replayed.len(), page });
-        let page = page::text(&summary, &figures, within.as_ref(), true);
-        let mut files = pictures(&figures);
-        files.extend([
-            ("days.csv".to_owned(), days_csv::text(self).into_bytes()),
-            ("summary.json".to_owned(), (summary.to_json() + "\n").into_bytes()),
-            ("report.html".to_owned(), page.into_bytes()),
-        ]);
-        files.extend(replayed.map(|page| ("replay.html".to_owned(), page.into_bytes())));
-        Ok(files)
     }
 }

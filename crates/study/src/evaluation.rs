@@ -3,7 +3,6 @@
 
 mod result;
 mod summary;
-mod table;
 mod verify;
 
 use std::sync::Arc;

@@ -7,16 +7,14 @@
 //! most changes are worth; the bound's is that of what is possible (`explain/proven.rs`). A
 //! [sweep](crate::sweep) measures changes over many days.
 
-mod page;
 mod proven;
-mod table;
 mod worth;
 
 use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use serde::Serialize;
-use vertifleet_core::{OutputKind, Scenario, Stop};
+use vertifleet_core::{Scenario, Stop};
 use vertifleet_optimize::{Bound, Step, upper_bound_unless};
 
 use crate::account::Account;
@@ -30,13 +28,6 @@ pub use worth::Worth;
 
 /// The format of the explanation as JSON.
 pub const FORMAT: &str = "vertifleet-explanation/1";
-
-/// The beginning of every page of an explanation.
-pub const PAGE: OutputKind = OutputKind {
-    name: "explanation of a day",
-    skipped: 0,
-    opening: "<!DOCTYPE html>\n<!-- vertifleet-explanation/",
-};
 
 /// A day, explained.
 #[derive(Debug, Clone, Serialize)]
@@ -102,20 +93,9 @@ pub fn explain(
 }
 
 impl Explanation {
-    /// The explanation as text for a terminal.
-    pub fn text(&self) -> String {
-        table::text(self)
-    }
-
     /// The explanation as JSON.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("plain data")
-    }
-
-    /// The explanation as a page: that of the [account](Account::page), the bound, and what changes
-    /// are worth.
-    pub fn page(&self) -> String {
-        page::text(self)
     }
 }
 

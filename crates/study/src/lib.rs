@@ -1,19 +1,17 @@
-//! Studies of many policies on many days: statistics, figures and reports.
+//! Studies of many policies on many days, and their statistics.
 //!
 //! This crate builds on `vertifleet-optimize` and `vertifleet-learn`. [`PolicySpec`] gives the
 //! names of policies their meaning, and [`competitor`] finds the policies of a study. There are
 //! four studies: [`comparison`], of policies on the days of one network, [`evaluation`], on the
 //! days of a [`Suite`], [`sweep`], over many settings of one network, and [`size`], which searches
-//! for the best numbers of aircraft, stands and chargers. All go from the request to records.
-//! [`report`] writes the pages of a comparison; an evaluation leaves result files, which can be
-//! verified. [`ComparisonReport`] turns records into statistics. The presentation computes nothing,
-//! and the statistics do not depend on the presentation.
+//! for the best numbers of aircraft, stands and chargers. All go from the request to records. An
+//! evaluation leaves result files, which can be verified. [`ComparisonReport`] turns records into
+//! statistics. `vertifleet-report`, which builds on this crate, shows them.
 //!
 //! ```
 //! use vertifleet_core::{Network, Stop};
 //! use vertifleet_study::comparison::{Comparison, DrawnDays};
 //! use vertifleet_study::competitor::Selection;
-//! use vertifleet_study::report::Records;
 //! use vertifleet_study::{ComparisonReport, Unwatched};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -25,7 +23,6 @@
 //! let records = comparison.run("an example".to_owned(), &stop, &Unwatched)?;
 //! let report = ComparisonReport::of(&records)?;
 //! assert_eq!(report.best().name, "greedy");
-//! println!("{}", records.text()?);
 //! # Ok(())
 //! # }
 //! ```
@@ -36,19 +33,16 @@ pub mod competitor;
 mod error;
 pub mod evaluation;
 pub mod explain;
-pub mod figure;
 mod journal;
 mod kept_bounds;
 mod kept_comparisons;
 pub mod network_overview;
 mod origin;
 mod own_days;
-mod page;
 mod policy_spec;
 pub mod published;
 pub mod record;
-pub mod replay;
-pub mod report;
+mod replay;
 mod resolved_policy;
 mod run;
 mod sees;
@@ -59,7 +53,6 @@ pub mod statistics;
 mod study;
 mod suite;
 pub mod sweep;
-mod table;
 
 pub use comparison::ComparisonReport;
 pub use error::Error;
@@ -67,7 +60,6 @@ pub use kept_bounds::KeptBounds;
 pub use kept_comparisons::{KeptComparison, KeptComparisons};
 pub use origin::NetworkOrigin;
 pub use own_days::OwnDays;
-pub use page::REPLAY_FRAME_SCRIPT;
 pub use policy_spec::{PolicySource, PolicySpec, ResolveFor};
 pub use record::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,

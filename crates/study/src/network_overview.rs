@@ -1,14 +1,9 @@
-//! What a network holds, as numbers for programs and as a table for people.
+//! What a network holds, in numbers.
 
 use serde::Serialize;
 use vertifleet_core::{AircraftType, Matrix, Network, VertiportIx, Warning};
-use vertifleet_picture::numbers::{counted, grouped};
 
 use crate::sweep::Size;
-use crate::table::append_aligned;
-
-/// With more vertiports, the matrix of demand is left out of the table.
-const MOST_COLUMNS: usize = 16;
 
 /// What a network holds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -39,16 +34,6 @@ pub struct NetworkOverview {
     pub passengers_a_day: f64,
     /// What is allowed in the network but hardly meant.
     pub warnings: Vec<String>,
-}
-
-/// How long passengers who are not carried wait, if they do.
-pub(crate) fn waits(passenger_wait_s: u32) -> Option<String> {
-    let (time, unit) = if passenger_wait_s.is_multiple_of(60) {
-        (passenger_wait_s / 60, "min")
-    } else {
-        (passenger_wait_s, "s")
-    };
-    (time > 0).then(|| format!("{time} {unit} into the next period"))
 }
 
 /// A vertiport of a network.
@@ -133,90 +118,6 @@ impl NetworkOverview {
             warnings: network.warnings().iter().map(Warning::to_string).collect(),
         }
     }
-
-    /// The overview as a table for a terminal.
-    pub fn text(&self) -> String {
-        let [least, mean, most] = self.distance_mi;
-        let [lowest, fare, highest] = self.fare_usd;
-        let mut text = format!(
-            "{}: {} with {}, {}, {} passengers a day\n\
-             operations {} to {}{}\n{}\
-             distances {least:.1} to {most:.1} miles, {mean:.1} on the mean; fares {lowest:.2} to {highest:.2} $, {fare:.2} on the mean\n\
-             fleet, stands and chargers cost {} $ a day\n\n",
-            self.name,
-            counted(self.vertiports.len(), "vertiport", "vertiports"),
-            counted(self.size.stands as usize, "stand", "stands"),
-            counted(self.size.aircraft, "aircraft", "aircraft"),
-            grouped(self.passengers_a_day, 0),
-            self.operations[0],
-            self.operations[1],
-            self.time_zone.as_ref().map_or_else(String::new, |zone| format!(", {zone}")),
-            waits(self.passenger_wait_s).map_or_else(String::new, |waits| format!(
-                "passengers who are not carried wait {waits}\n"
-            )),
-            grouped(self.size.fixed_cost_usd, 0),
-        );
-        append_aligned(&mut text, &self.vertiport_rows());
-        text.push('\n');
-        append_aligned(&mut text, &self.type_rows());
-        text.push('\n');
-        append_aligned(&mut text, &self.period_rows());
-        if self.vertiports.len() <= MOST_COLUMNS {
-            text += "\npassengers a day, from row to column\n";
-            append_aligned(&mut text, &self.matrix_rows());
-        }
-        for warning in &self.warnings {
-            text = text + "\nwarning: " + warning + "\n";
-        }
-        text
-    }
-
-    fn vertiport_rows(&self) -> Vec<Vec<String>> {
-        let mut rows =
-            vec![cells(&["vertiport", "place", "stands", "chargers", "departing", "arriving"])];
-        rows.extend(self.vertiports.iter().map(|one| {
-            let place = match one.degrees {
-                Some([latitude, longitude]) => format!("{latitude:.4}, {longitude:.4}"),
-                None => format!("{:.1}, {:.1} mi", one.position_mi[0], one.position_mi[1]),
-            };
-            let chargers = one.chargers.map_or_else(String::new, |chargers| chargers.to_string());
-            let (departing, arriving) = (grouped(one.departing, 0), grouped(one.arriving, 0));
-            vec![one.id.clone(), place, one.stands.to_string(), chargers, departing, arriving]
-        }));
-        rows
-    }
-
-    fn type_rows(&self) -> Vec<Vec<String>> {
-        let mut rows = vec![cells(&["aircraft type", "aircraft", "seats", "mph", "range, mi"])];
-        rows.extend(self.aircraft_types.iter().map(|one| {
-            let (speed, range) = (grouped(one.speed_mph, 1), grouped(one.range_mi, 0));
-            vec![one.id.clone(), one.aircraft.to_string(), one.seats.to_string(), speed, range]
-        }));
-        rows
-    }
-
-    fn period_rows(&self) -> Vec<Vec<String>> {
-        let mut rows = vec![cells(&["from", "passengers"])];
-        rows.extend(self.periods.iter().zip(&self.passengers).map(|(start, table)| {
-            let sum: f64 = table.iter().flatten().sum();
-            vec![start.clone(), grouped(sum, 0)]
-        }));
-        rows
-    }
-
-    fn matrix_rows(&self) -> Vec<Vec<String>> {
-        let mut rows = vec![
-            std::iter::once(String::new())
-                .chain(self.vertiports.iter().map(|one| one.id.clone()))
-                .collect::<Vec<_>>(),
-        ];
-        rows.extend(self.vertiports.iter().enumerate().map(|(from, one)| {
-            let sum = |to: usize| self.passengers.iter().map(|table| table[from][to]).sum::<f64>();
-            let row = (0..self.vertiports.len()).map(|to| grouped(sum(to), 0));
-            std::iter::once(one.id.clone()).chain(row).collect()
-        }));
-        rows
-    }
 }
 
 /// The sum over all periods.
@@ -233,10 +134,6 @@ fn spread(numbers: &[f64]) -> [f64; 3] {
     let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
     let most = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     [least, crate::statistics::mean(numbers), most]
-}
-
-fn cells(texts: &[&str]) -> Vec<String> {
-    texts.iter().map(|&text| text.to_owned()).collect()
 }
 
 #[cfg(test)]
@@ -256,23 +153,5 @@ mod tests {
             let aircraft: usize = overview.aircraft_types.iter().map(|one| one.aircraft).sum();
             assert_eq!(aircraft, overview.size.aircraft, "{name}");
         }
-    }
-
-    #[test]
-    fn passengers_who_wait_are_named() {
-        let paper = Network::shipped("paper").expect("shipped");
-        for (wait_s, said) in [(600, "wait 10 min into"), (90, "wait 90 s into")] {
-            let wait = serde_json::json!(wait_s);
-            let network = paper.changed([(&"operations.passenger_wait_s".to_owned(), &wait)]);
-            let text = NetworkOverview::of(&network.expect("a wait")).text();
-            assert!(text.contains(said), "{text}");
-        }
-        assert!(!NetworkOverview::of(&paper).text().contains("wait"));
-    }
-
-    #[test]
-    fn the_overview_of_new_york() {
-        let network = Network::shipped("new-york").expect("shipped");
-        insta::assert_snapshot!(NetworkOverview::of(&network).text());
     }
 }

@@ -44,7 +44,7 @@ impl DayRecord {
 
 /// Operating profit as a share of its upper bound, as [`DayRecord::bound_share`] defines it.
 /// `bound_usd` is that of the profit.
-pub(crate) fn bound_share(totals: &DayTotals, bound_usd: f64) -> f64 {
+pub fn bound_share(totals: &DayTotals, bound_usd: f64) -> f64 {
     1.0 - gap(bound_usd + totals.fixed_cost_usd(), totals.operating_profit_usd())
 }
 

@@ -5,10 +5,6 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// The note below tables with a column of information classes.
-pub(crate) const SEES: &str =
-    "sees: the present; the forecast too; or the whole day beforehand, a reference and no policy";
-
 /// The information class of a competitor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

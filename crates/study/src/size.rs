@@ -8,32 +8,24 @@
 //! search has not seen, because the best of many looks better than it is.
 
 mod ceiling;
-mod csv;
 mod goal;
-mod headline;
 mod journal;
-mod page;
 mod search;
 mod solver;
 mod space;
 mod summary;
-mod table;
 
 use std::fs;
 use std::path::Path;
 
 use serde_json::{Value, json};
-use vertifleet_core::{
-    FolderKind, Matrix, Network, Scenario, Stop, check_folder, write_atomically,
-};
+use vertifleet_core::{Matrix, Network, Scenario, Stop};
 use vertifleet_optimize::Step;
 
 use crate::comparison::DrawnDays;
 use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
-use crate::figure;
 use crate::journal::{Head, Journal, fingerprint};
-use crate::report::{File, Records, is_figure, pictures};
 use crate::sweep::Factor;
 
 use search::{Aim, search};
@@ -41,21 +33,11 @@ use solver::KnownDesigns;
 use space::Space;
 
 pub use goal::Goal;
-pub use journal::JOURNAL;
+pub use journal::{JOURNAL, JOURNAL_KIND};
 pub use summary::{Certificate, DesignSummary, DimensionSummary, FORMAT, SizeReport};
 
 /// The most designs that a search may play.
 pub const MOST_DESIGNS: usize = 1_000;
-
-/// A folder that holds a search for a design and nothing else.
-const FOLDER: FolderKind = FolderKind {
-    name: "search for a design",
-    mark: (JOURNAL, &[journal::KIND]),
-    holds: |name| {
-        is_figure(name)
-            || [JOURNAL, "designs.csv", "summary.json", "report.html", "best.toml"].contains(&name)
-    },
-};
 
 /// What a search is asked for.
 pub struct SizeRequest<'a> {
@@ -154,16 +136,6 @@ impl Sizing {
         fingerprint(&text)
     }
 
-    /// Checks, before anything is played, that the search may be kept in this folder: there is
-    /// none, it is empty, or it holds a search, or `force` is given.
-    ///
-    /// # Errors
-    /// Returns [`Error::Core`] for a folder that holds something else (V143) or is read-only
-    /// (V144).
-    pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
-        Ok(check_folder(folder, &FOLDER, force)?)
-    }
-
     /// Searches. What is found out of each design is in the folder, which is made if it is not
     /// there, before the next one, and what is there already is not found out again. `played` is
     /// called after each design that was played. With `force`, another search in the folder is
@@ -229,49 +201,8 @@ impl Sizing {
 
 /// The outcome of a search.
 pub struct SizeRecords {
-    report: SizeReport,
-    /// The network file of the best design.
-    best: String,
-}
-
-impl SizeRecords {
     /// The numbers.
-    pub fn report(&self) -> &SizeReport {
-        &self.report
-    }
-
-    /// Writes tables, figure, page and the network file of the best design into the folder of the
-    /// search, each file whole or not at all. The same search gives the same bytes, however often
-    /// it was interrupted.
-    ///
-    /// # Errors
-    /// Returns [`Error::Core`] (V102) if a file cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<(), Error> {
-        for (name, content) in self.files()? {
-            write_atomically(&folder.join(name), &content)?;
-        }
-        Ok(())
-    }
-}
-
-impl Records for SizeRecords {
-    fn text(&self) -> Result<String, Error> {
-        Ok(table::text(&self.report))
-    }
-
-    fn json(&self) -> Result<String, Error> {
-        Ok(self.report.to_json())
-    }
-
-    fn files(&self) -> Result<Vec<File>, Error> {
-        let figures = figure::of_size(&self.report);
-        let mut files = pictures(&figures);
-        files.extend([
-            ("designs.csv".to_owned(), csv::text(&self.report).into_bytes()),
-            ("summary.json".to_owned(), (self.report.to_json() + "\n").into_bytes()),
-            ("report.html".to_owned(), page::text(&self.report, &figures).into_bytes()),
-            ("best.toml".to_owned(), self.best.clone().into_bytes()),
-        ]);
-        Ok(files)
-    }
+    pub report: SizeReport,
+    /// The network file of the best design.
+    pub best: String,
 }

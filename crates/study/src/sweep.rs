@@ -9,17 +9,11 @@
 
 mod additive;
 mod cell;
-mod cells_csv;
-mod days_csv;
 mod design;
 mod effects;
-mod headline;
-mod page;
 mod played;
 mod record;
 mod summary;
-mod table;
-mod typed_tables;
 
 use std::collections::HashSet;
 use std::fs;
@@ -27,23 +21,18 @@ use std::path::Path;
 
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde_json::{Value, json};
-use vertifleet_core::{
-    FolderKind, Network, OutputKind, Scenario, Stop, check_folder, write_atomically,
-};
+use vertifleet_core::{Network, OutputKind, Scenario, Stop, write_atomically};
 use vertifleet_optimize::Step;
 
 use crate::comparison::DrawnDays;
 use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
-use crate::figure;
 use crate::journal::{self, Head, Journal, fingerprint};
 use crate::kept_bounds::KeptBounds;
-use crate::report::{File, Records, is_figure, pictures};
 use crate::run::{BoundedDay, Kept, play_all};
 
 pub use cell::Cell;
-pub(crate) use design::format_value;
-pub use design::{Design, Factor, Levels, MOST_CELLS};
+pub use design::{Design, Factor, Levels, MOST_CELLS, format_value};
 pub use effects::{Effect, LevelEffect};
 pub use record::{CellRecord, Size};
 pub use summary::{CellResult, CellSummary, FORMAT, SweepReport};
@@ -52,22 +41,8 @@ pub use summary::{CellResult, CellSummary, FORMAT, SweepReport};
 pub const JOURNAL: &str = "cells.jsonl";
 const JOURNAL_FORMAT: &str = "vertifleet-sweep-cells/1";
 
-/// The tables of a sweep, each as text and with types.
-const TABLES: [&str; 4] = ["cells.csv", "cells.parquet", "days.csv", "days.parquet"];
-
-/// A folder that holds a sweep and nothing else.
-const FOLDER: FolderKind = FolderKind {
-    name: "sweep",
-    mark: (JOURNAL, &[KIND]),
-    holds: |name| {
-        is_figure(name)
-            || TABLES.contains(&name)
-            || [JOURNAL, "summary.json", "report.html"].contains(&name)
-    },
-};
-
 /// The beginning of every journal of a sweep, in any version of the format.
-const KIND: OutputKind =
+pub const JOURNAL_KIND: OutputKind =
     OutputKind { name: "sweep", skipped: 0, opening: "{\"format\":\"vertifleet-sweep-cells/" };
 
 /// What a sweep is asked for.
@@ -213,16 +188,6 @@ impl Sweep {
         }))
     }
 
-    /// Checks, before anything is played, that the sweep may be kept in this folder: there is none,
-    /// it is empty, or it holds a sweep, or `force` is given.
-    ///
-    /// # Errors
-    /// Returns [`Error::Core`] for a folder that holds something else (V143) or is read-only
-    /// (V144).
-    pub fn check_folder(folder: &Path, force: bool) -> Result<(), Error> {
-        Ok(check_folder(folder, &FOLDER, force)?)
-    }
-
     /// Plays all cells that the folder, which is made if it is not there, does not hold yet, and
     /// keeps each as soon as it is finished. `begin` is called with the number of cells that were
     /// there and of all cells; the function that it returns is called after each further one, from
@@ -286,45 +251,19 @@ pub struct SweepRecords<'a> {
 }
 
 impl SweepRecords<'_> {
-    /// Writes tables, figures and page into the folder of the sweep, each file whole or not at all,
-    /// and the journal in the order of the cells. The same sweep gives the same bytes, however
-    /// often it was interrupted.
+    /// The records of the cells that were played, in the order of the design.
+    pub fn played(&self) -> impl Iterator<Item = &CellRecord> {
+        self.records.iter().flatten()
+    }
+
+    /// Writes the journal in the order of the cells, whole or not at all: the same sweep gives the
+    /// same bytes, however often it was interrupted.
     ///
     /// # Errors
-    /// Returns [`Error::Core`] (V102) if a file cannot be written.
-    pub fn write(&self, folder: &Path) -> Result<(), Error> {
-        let mut files = self.files()?;
-        let records: Vec<CellRecord> = self.records.iter().flatten().cloned().collect();
-        let journal = journal::text(&self.sweep.head(), &records);
-        files.push((JOURNAL.to_owned(), journal.into_bytes()));
-        for (name, content) in files {
-            write_atomically(&folder.join(name), &content)?;
-        }
-        Ok(())
-    }
-}
-
-impl Records for SweepRecords<'_> {
-    fn text(&self) -> Result<String, Error> {
-        Ok(table::text(&SweepReport::of(self)?))
-    }
-
-    fn json(&self) -> Result<String, Error> {
-        Ok(SweepReport::of(self)?.to_json())
-    }
-
-    fn files(&self) -> Result<Vec<File>, Error> {
-        let report = SweepReport::of(self)?;
-        let figures = figure::of_sweep(&report);
-        let mut files = pictures(&figures);
-        files.extend([
-            ("cells.csv".to_owned(), cells_csv::text(&report).into_bytes()),
-            ("cells.parquet".to_owned(), typed_tables::cells(&report)),
-            ("days.csv".to_owned(), days_csv::text(self).into_bytes()),
-            ("days.parquet".to_owned(), typed_tables::days(self)),
-            ("summary.json".to_owned(), (report.to_json() + "\n").into_bytes()),
-            ("report.html".to_owned(), page::text(&report, &figures).into_bytes()),
-        ]);
-        Ok(files)
+    /// Returns [`Error::Core`] (V102) if the file cannot be written.
+    pub fn write_journal(&self, folder: &Path) -> Result<(), Error> {
+        let records: Vec<CellRecord> = self.played().cloned().collect();
+        let text = journal::text(&self.sweep.head(), &records);
+        Ok(write_atomically(&folder.join(JOURNAL), text.as_bytes())?)
     }
 }

@@ -2,20 +2,20 @@
 
 use std::process::ExitCode;
 
+use anstream::eprintln;
 use vertifleet_core::{Code, Outputs, Stop};
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bars;
-use vertifleet_study::OwnDays;
+use vertifleet_report::folder;
 use vertifleet_study::comparison::{Comparison, DrawnDays};
 use vertifleet_study::competitor::Selection;
+use vertifleet_study::{ComparisonReport, OwnDays};
 
 use crate::args::CompareArguments;
-use crate::commands::{
-    claim_report, command, find_network, present, reads_models, warn_unserved_days,
-};
+use crate::commands::{claim_report, command, find_network, reads_models, warn_unserved_days};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
-use crate::output::warn;
+use crate::output::{print, warn};
 
 /// The seed of the first of the drawn days, where none is given.
 const FIRST_SEED: u64 = 1;
@@ -34,7 +34,17 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     for warning in comparison.warnings() {
         warn(Code(310), &warning);
     }
-    present(&comparison.run(command(), &never, &Bars)?, &arguments.presented)?;
+    let records = comparison.run(command(), &never, &Bars)?;
+    let summary = ComparisonReport::of(&records)?;
+    let report = vertifleet_report::comparison_folder(&summary, &records);
+    print(&if arguments.presented.json { summary.to_json() } else { report.text() })?;
+    if let Some(path) = &arguments.presented.report {
+        let written = folder::write(&report, path, arguments.presented.force)?;
+        if let Some(kept) = &written.kept {
+            eprintln!("what was there before is now {}", kept.display());
+        }
+        eprintln!("report: {}", written.page.display());
+    }
     Ok(ExitCode::SUCCESS)
 }
 

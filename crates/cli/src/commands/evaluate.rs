@@ -58,7 +58,11 @@ pub(crate) fn run(arguments: &EvaluateArguments) -> Result<ExitCode, Failure> {
         records.push(played);
     }
     let report = EvaluationReport::of(&records)?;
-    print(&if arguments.json { report.to_json() } else { report.text() })?;
+    print(&if arguments.json {
+        report.to_json()
+    } else {
+        vertifleet_report::evaluation(&report).text()
+    })?;
     Ok(ExitCode::SUCCESS)
 }
 

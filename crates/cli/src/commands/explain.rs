@@ -8,7 +8,8 @@ use anstream::eprintln;
 use vertifleet_core::{Code, Outputs, Stop, write_atomically};
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bar;
-use vertifleet_study::explain::{PAGE, explain};
+use vertifleet_report::EXPLANATION_PAGE;
+use vertifleet_study::explain::explain;
 use vertifleet_study::{PolicySpec, ResolveFor};
 
 use crate::args::ExplainArguments;
@@ -29,7 +30,7 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<ExitCode, Failure> {
     reads_policy(&spec, arguments.model.as_ref(), &mut outputs);
     outputs.prints();
     if let Some(page) = &arguments.report {
-        outputs.writes(page, &PAGE)?;
+        outputs.writes(page, &EXPLANATION_PAGE)?;
     }
     if let Some(warning) = policy.warning_for(spec.name(), &scenario) {
         warn(Code(310), &warning);
@@ -45,10 +46,12 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<ExitCode, Failure> {
             }
         })?;
     drop(bar);
+    let replayed = [explanation.account.replayed()];
+    let report = vertifleet_report::explanation(&explanation, &replayed);
     if let Some(page) = &arguments.report {
-        write_atomically(page, explanation.page().as_bytes())?;
+        write_atomically(page, report.page().as_bytes())?;
         eprintln!("report: {}", page.display());
     }
-    print(&if arguments.json { explanation.to_json() } else { explanation.text() })?;
+    print(&if arguments.json { explanation.to_json() } else { report.text() })?;
     Ok(ExitCode::SUCCESS)
 }

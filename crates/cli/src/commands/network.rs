@@ -223,7 +223,7 @@ fn show(
     print(&if as_json {
         serde_json::to_string_pretty(&overview).expect("plain data")
     } else {
-        overview.text()
+        vertifleet_report::network(&overview).text()
     })?;
     Ok(ExitCode::SUCCESS)
 }

@@ -4,8 +4,9 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use vertifleet_core::{Code, Outputs, Scenario, Stop, write_atomically};
+use vertifleet_report::DAY_PAGE;
 use vertifleet_sim::{DayTotals, Trace};
-use vertifleet_study::account::{Account, PAGE};
+use vertifleet_study::account::Account;
 use vertifleet_study::{PolicySpec, ResolveFor};
 
 use crate::args::SimulateArguments;
@@ -32,7 +33,9 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     }
     if let Some(path) = &arguments.report {
         let account = Account::of(&scenario, spec.name(), trace, totals);
-        write_atomically(path, account.page().as_bytes())?;
+        let replayed = [account.replayed()];
+        let page = vertifleet_report::account(&account, &replayed).page();
+        write_atomically(path, page.as_bytes())?;
     }
     if arguments.json {
         print(&serde_json::to_string_pretty(&totals).expect("numbers are plain data"))?;
@@ -52,7 +55,7 @@ fn claim(arguments: &SimulateArguments, spec: &PolicySpec) -> Result<(), Failure
         outputs.writes(trace, &Trace::FILE)?;
     }
     if let Some(page) = &arguments.report {
-        outputs.writes(page, &PAGE)?;
+        outputs.writes(page, &DAY_PAGE)?;
     }
     Ok(())
 }

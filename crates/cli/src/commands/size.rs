@@ -3,12 +3,12 @@
 use std::process::ExitCode;
 
 use anstream::eprintln;
-use vertifleet_core::{Outputs, Stop};
+use vertifleet_core::{Outputs, Stop, check_folder};
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bar;
+use vertifleet_report::folder;
 use vertifleet_study::comparison::DrawnDays;
 use vertifleet_study::competitor::Selection;
-use vertifleet_study::report::Records as _;
 use vertifleet_study::size::{SizeRequest, Sizing};
 
 use crate::args::SizeArguments;
@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &SizeArguments) -> Result<ExitCode, Failure> {
     let network = find_network(&arguments.network, &mut outputs)?;
     reads_models(models.iter().map(|(_, model)| model), &mut outputs);
     outputs.replaces_folder(&arguments.out)?;
-    Sizing::check_folder(&arguments.out, arguments.force)?;
+    check_folder(&arguments.out, &folder::SIZE, arguments.force)?;
     let sizing = Sizing::new(SizeRequest {
         network: &network,
         factors: arguments.vary.clone(),
@@ -43,9 +43,10 @@ pub(crate) fn run(arguments: &SizeArguments) -> Result<ExitCode, Failure> {
     let bar = Bar::new(sizing.designs() as u64, "designs");
     let records = sizing.run(folder, command(), arguments.force, &stop, &mut || bar.advance(1))?;
     drop(bar);
-    records.write(folder)?;
-    print(&if arguments.json { records.json()? } else { records.text()? })?;
-    eprintln!("report: {}", folder.join("report.html").display());
+    let report = vertifleet_report::size(&records.report, &records.best);
+    let written = folder::write_beside_journal(&report, folder)?;
+    print(&if arguments.json { records.report.to_json() } else { report.text() })?;
+    eprintln!("report: {}", written.page.display());
     eprintln!("network file of the design: {}", folder.join("best.toml").display());
     Ok(ExitCode::SUCCESS)
 }

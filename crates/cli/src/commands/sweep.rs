@@ -3,13 +3,13 @@
 use std::process::ExitCode;
 
 use anstream::eprintln;
-use vertifleet_core::{Outputs, Stop};
+use vertifleet_core::{Outputs, Stop, check_folder};
 use vertifleet_optimize::Step;
 use vertifleet_progress::Bar;
+use vertifleet_report::folder;
 use vertifleet_study::comparison::DrawnDays;
 use vertifleet_study::competitor::Selection;
-use vertifleet_study::report::Records as _;
-use vertifleet_study::sweep::{Design, Sweep, SweepRequest};
+use vertifleet_study::sweep::{Design, Sweep, SweepReport, SweepRequest};
 
 use crate::args::SweepArguments;
 use crate::commands::{command, find_network, reads_models, warn_of_demand, warn_unserved_days};
@@ -24,7 +24,7 @@ pub(crate) fn run(arguments: &SweepArguments) -> Result<ExitCode, Failure> {
     let network = find_network(&arguments.network, &mut outputs)?;
     reads_models(models.iter().map(|(_, model)| model), &mut outputs);
     outputs.replaces_folder(&arguments.out)?;
-    Sweep::check_folder(&arguments.out, arguments.force)?;
+    check_folder(&arguments.out, &folder::SWEEP, arguments.force)?;
     let selection = Selection { policies, models, seed: arguments.seed };
     let sweep = Sweep::new(SweepRequest {
         network: &network,
@@ -49,8 +49,11 @@ pub(crate) fn run(arguments: &SweepArguments) -> Result<ExitCode, Failure> {
         bar.already_done(done as u64);
         move || bar.advance(1)
     })?;
-    records.write(folder)?;
-    print(&if arguments.json { records.json()? } else { records.text()? })?;
-    eprintln!("report: {}", folder.join("report.html").display());
+    let summary = SweepReport::of(&records)?;
+    let report = vertifleet_report::sweep(&summary, &records);
+    records.write_journal(folder)?;
+    let written = folder::write_beside_journal(&report, folder)?;
+    print(&if arguments.json { summary.to_json() } else { report.text() })?;
+    eprintln!("report: {}", written.page.display());
     Ok(ExitCode::SUCCESS)
 }

@@ -10,7 +10,7 @@ use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 use utoipa::ToSchema;
-use vertifleet_study::REPLAY_FRAME_SCRIPT;
+use vertifleet_report::REPLAY_FRAME_SCRIPT;
 
 use super::answer::{again, json};
 use super::days::new_id;

@@ -11,8 +11,8 @@ use crate::error::Error;
 use crate::origin::NetworkOrigin;
 use crate::published::{self, PublishedResult};
 use crate::record::{
-    ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ReplayedDay,
-    ValidationCurves, check_records,
+    ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
+    check_records,
 };
 use crate::sees::Sees;
 use crate::statistics::{BoxSummary, Estimate, PairedTest, mean};
@@ -253,21 +253,9 @@ impl ComparisonReport {
         serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
     }
 
-    /// The page of the report alone, as HTML, with the replay of these days in it.
-    pub fn page(&self, replayed: &[ReplayedDay]) -> String {
-        let replay = (!replayed.is_empty()).then(|| crate::replay::page(replayed));
-        let within = replay.as_ref().map(|page| super::page::Replay { days: replayed.len(), page });
-        super::page::text(self, &crate::figure::all(self), within.as_ref(), false)
-    }
-
-    /// The tables of policies and tests as HTML for notebooks.
-    pub fn html(&self) -> String {
-        super::table::html(self)
-    }
-
     /// Whether these days are like those of the paper, so that the figures correspond to the
     /// paper's.
-    pub(crate) fn is_of_the_paper(&self) -> bool {
+    pub fn is_of_the_paper(&self) -> bool {
         !self.published.is_empty()
     }
 
@@ -281,7 +269,7 @@ impl ComparisonReport {
     }
 
     /// The position of the best policy.
-    pub(crate) fn best_position(&self) -> usize {
+    pub fn best_position(&self) -> usize {
         self.policies.iter().position(|policy| !policy.knows_the_day()).unwrap_or(0)
     }
 

@@ -77,17 +77,6 @@ impl EvaluationReport {
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("numbers and texts can always be written")
     }
-
-    /// The statistics as text for a terminal: a table for each suite, and one of all suites if
-    /// there are several. There is no line end after the last line.
-    pub fn text(&self) -> String {
-        super::table::text(self)
-    }
-
-    /// The tables as HTML for notebooks.
-    pub fn html(&self) -> String {
-        super::table::html(self)
-    }
 }
 
 impl SuiteReport {

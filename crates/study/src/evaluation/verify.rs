@@ -17,7 +17,6 @@ use crate::error::Error;
 use crate::record::{DayRecord, mean_profit_usd};
 use crate::statistics::Estimate;
 use crate::suite::{Suite, SuiteDay};
-use crate::table::estimate;
 
 /// Two numbers agree if they differ by no more than this share of them. Sums in another order
 /// differ by less.
@@ -209,4 +208,10 @@ impl fmt::Display for Verification {
         }
         f.write_str(&text)
     }
+}
+
+/// A mean with its interval.
+fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> String {
+    let half = estimate.half_width_95.map(|half| format!(" ± {}", written(half)));
+    written(estimate.mean) + &half.unwrap_or_default()
 }

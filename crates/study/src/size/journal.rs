@@ -13,7 +13,7 @@ pub const JOURNAL: &str = "designs.jsonl";
 pub(super) const FORMAT: &str = "vertifleet-size-designs/1";
 
 /// The beginning of every journal, in any version of the format.
-pub(super) const KIND: OutputKind = OutputKind {
+pub const JOURNAL_KIND: OutputKind = OutputKind {
     name: "search for a design",
     skipped: 0,
     opening: "{\"format\":\"vertifleet-size-designs/",

@@ -243,7 +243,7 @@ impl SizeReport {
     }
 
     /// The numbers as JSON.
-    pub(super) fn to_json(&self) -> String {
+    pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("plain data")
     }
 }

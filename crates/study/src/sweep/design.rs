@@ -235,7 +235,7 @@ fn latin_hypercube(factors: &[Factor], cells: usize, seed: u64) -> Vec<Vec<Value
 }
 
 /// A value as people write it: a text without quotes.
-pub(crate) fn format_value(value: &Value) -> String {
+pub fn format_value(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 

@@ -108,7 +108,7 @@ impl SweepReport {
     ///
     /// # Errors
     /// Returns [`Error::Empty`] if no cell was played.
-    pub(super) fn of(records: &SweepRecords<'_>) -> Result<Self, Error> {
+    pub fn of(records: &SweepRecords<'_>) -> Result<Self, Error> {
         let SweepRecords { sweep, records, command } = records;
         let days = sweep.drawn.days;
         let profits = |policy: usize, record: &CellRecord| -> Vec<f64> {
@@ -214,7 +214,10 @@ impl SweepReport {
     }
 
     /// The statistics as JSON.
-    pub(super) fn to_json(&self) -> String {
+    ///
+    /// # Panics
+    /// Never panics: numbers and texts can always be written.
+    pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("plain data")
     }
 }

@@ -1,9 +1,3 @@
-//! What comparisons, evaluations, sweeps and searches for designs promise.
+//! What evaluations promise.
 
-mod account;
 mod evaluations;
-mod explain;
-mod made_up;
-mod report;
-mod size;
-mod sweep;

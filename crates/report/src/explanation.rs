@@ -1,0 +1,59 @@
+//! The report of an explained day: that of the played day, with its bound and what changes would be
+//! worth.
+
+use vertifleet_core::OutputKind;
+use vertifleet_picture::numbers::{dollars, grouped, minutes, signed};
+use vertifleet_study::explain::Explanation;
+use vertifleet_study::record::{ReplayedDay, bound_share};
+
+use crate::account::account;
+use crate::report::{Report, Section, Table};
+
+/// The beginning of every page of an explanation.
+pub const EXPLANATION_PAGE: OutputKind = OutputKind {
+    name: "explanation of a day",
+    skipped: 0,
+    opening: "<!DOCTYPE html>\n<!-- vertifleet-explanation/",
+};
+
+/// The report of an explanation. `replayed` is the day itself
+/// ([`Account::replayed`](vertifleet_study::account::Account::replayed)).
+pub fn explanation<'a>(explanation: &Explanation, replayed: &'a [ReplayedDay]) -> Report<'a> {
+    let mut report = account(&explanation.account, replayed);
+    let bound_usd = explanation.upper_bound_usd;
+    let share = 100.0 * bound_share(&explanation.account.totals, bound_usd);
+    let of_bound = format!(
+        " The profit is {} % of the upper bound of {} (slices of {}).",
+        grouped(share, 1),
+        dollars(bound_usd),
+        minutes(explanation.bound_step_s)
+    );
+    report.headline += &of_bound;
+    report.facts.insert(0, ("Upper bound", dollars(bound_usd)));
+    report.sections.push(
+        Section::of_table("What a change would be worth", worth(explanation))
+            .with_note("each day was solved again with the change, by the policy and by the bound; both differences are after what the change costs")
+            .with_note("the policy's difference is that of one day, which chance moves by more than most changes are worth: a sweep measures changes over many days")
+            .with_note("the bound's is that of what is possible; one more stand is worth its price in the table of vertiports at most, less what it costs"),
+    );
+    Report {
+        subject: "where a day’s money is, and where it is lost",
+        mark: "\n<!-- vertifleet-explanation/1 -->\n",
+        ..report
+    }
+}
+
+/// What changes are worth after what they cost.
+fn worth(explanation: &Explanation) -> Table {
+    let mut rows = vec![vec![
+        "change".to_owned(),
+        "cost, $".to_owned(),
+        format!("{} after cost, $", explanation.account.policy),
+        "bound after cost, $".to_owned(),
+    ]];
+    rows.extend(explanation.worth.iter().map(|one| {
+        let policy = one.policy_usd.map_or_else(|| "n/a".to_owned(), |usd| signed(usd, 0));
+        vec![one.change.clone(), grouped(one.cost_usd, 0), policy, signed(one.bound_usd, 0)]
+    }));
+    Table { rows, best: Vec::new() }
+}

@@ -1,0 +1,145 @@
+//! What a report consists of, whatever it is about.
+
+use maud::Markup;
+use vertifleet_study::record::ReplayedDay;
+use vertifleet_study::statistics::Estimate;
+
+use crate::figure::Figure;
+
+/// A report that can be shown in a terminal, in a notebook, as a page and as a folder.
+#[derive(Default)]
+pub struct Report<'a> {
+    /// The title of the page's window.
+    pub title: String,
+    /// The days and the network in a line, which a terminal shows first; may be empty.
+    pub opening: String,
+    /// The kind of report in a few words, above the page's heading.
+    pub subject: &'static str,
+    /// The heading of the page.
+    pub heading: String,
+    /// The result in a few sentences.
+    pub headline: String,
+    /// What was asked for, as names and values, at the head of the page.
+    pub facts: Vec<(&'static str, String)>,
+    /// The command line that made it; empty if there is none.
+    pub command: String,
+    /// What the reader should know before the first section.
+    pub remarks: Vec<String>,
+    /// Tables and figures in their order.
+    pub sections: Vec<Section>,
+    /// The days that the page replays.
+    pub replayed: &'a [ReplayedDay],
+    /// What the reader should know about the numbers, at the end of the page.
+    pub closing: Vec<String>,
+    /// The files that the page links to.
+    pub files: Files<'a>,
+    /// A comment at the beginning of the page by which the program recognises it; may be empty.
+    pub mark: &'static str,
+}
+
+/// The files of a report other than its page.
+#[derive(Default)]
+pub enum Files<'a> {
+    /// There are none; the page stands alone.
+    #[default]
+    None,
+    /// The page holds its figures as files to download. Their names begin with this text.
+    Within(String),
+    /// Figures and data stand beside the page.
+    Beside(Vec<DataFile<'a>>),
+}
+
+/// A file with the data of a report.
+pub struct DataFile<'a> {
+    /// Its name.
+    pub name: &'static str,
+    /// What it contains, in a few words.
+    pub about: &'static str,
+    /// Makes its content.
+    pub content: Box<dyn Fn() -> Vec<u8> + 'a>,
+}
+
+impl<'a> DataFile<'a> {
+    /// A file of this name.
+    pub fn new(
+        name: &'static str,
+        about: &'static str,
+        content: impl Fn() -> Vec<u8> + 'a,
+    ) -> Self {
+        Self { name, about, content: Box::new(content) }
+    }
+}
+
+/// A table, figures, or both, under a heading.
+#[derive(Default)]
+pub struct Section {
+    /// The heading; may be empty.
+    pub title: String,
+    /// How to read it, one statement each, without a full stop.
+    pub notes: Vec<String>,
+    /// The figures.
+    pub figures: Vec<Figure>,
+    /// The table.
+    pub table: Option<Table>,
+    /// What only the page shows below them.
+    pub below: Option<Markup>,
+    /// Where it is shown.
+    pub place: Place,
+}
+
+/// Where a section is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Place {
+    /// Everywhere; figures only on the page.
+    #[default]
+    Everywhere,
+    /// On the page.
+    Page,
+    /// In a terminal and in notebooks.
+    Terminal,
+}
+
+/// A table: the first row names the columns, and the first cell of each row names the row.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Table {
+    /// The rows with their cells.
+    pub rows: Vec<Vec<String>>,
+    /// The positions of the rows that stand out, the row of names not counted.
+    pub best: Vec<usize>,
+}
+
+impl Table {
+    /// A table with these columns and no row.
+    pub fn new<T: Into<String>>(columns: impl IntoIterator<Item = T>) -> Self {
+        Self { rows: vec![columns.into_iter().map(Into::into).collect()], best: Vec::new() }
+    }
+
+    /// The table with these further rows.
+    #[must_use]
+    pub fn with_rows(mut self, rows: impl IntoIterator<Item = Vec<String>>) -> Self {
+        self.rows.extend(rows);
+        self
+    }
+}
+
+impl Section {
+    /// A section with a table.
+    pub fn of_table(title: impl Into<String>, table: Table) -> Self {
+        Self { title: title.into(), table: Some(table), ..Self::default() }
+    }
+
+    /// The section with this further note.
+    #[must_use]
+    pub fn with_note(mut self, note: impl Into<String>) -> Self {
+        self.notes.push(note.into());
+        self
+    }
+}
+
+/// A mean with its interval, as a cell.
+pub(crate) fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> String {
+    match estimate.half_width_95 {
+        Some(half_width) => format!("{} ± {}", written(estimate.mean), written(half_width)),
+        None => written(estimate.mean),
+    }
+}

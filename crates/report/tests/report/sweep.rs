@@ -1,0 +1,232 @@
+//! What a sweep promises: cells are the changed networks on the same days, and a sweep that was
+//! interrupted ends with the same bytes as one that was not.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use bytes::Bytes;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::Field;
+use vertifleet_core::{Coded, DaySeed, Network, Stop};
+use vertifleet_study::comparison::DrawnDays;
+use vertifleet_study::competitor::Selection;
+use vertifleet_study::sweep::{Design, Factor, JOURNAL, Sweep, SweepReport, SweepRequest};
+
+const FACTORS: [&str; 2] = ["fleet.0.count=38..42/2", "vertiports.*.stands=5,6"];
+
+fn factors(texts: &[&str]) -> Vec<Factor> {
+    texts.iter().map(|text| Factor::parse(text).expect("a factor")).collect()
+}
+
+fn paper() -> Network {
+    let paper = Network::shipped("paper").expect("shipped");
+    let costs = serde_json::json!({
+        "tariffs.aircraft_cost_usd_per_day": 200,
+        "tariffs.stand_cost_usd_per_day": 100,
+    });
+    paper.changed(costs.as_object().expect("changes")).expect("a network with costs")
+}
+
+fn sweep(factors_of: &[&str], design: Design, days: u32) -> Result<Sweep, vertifleet_study::Error> {
+    let policies = ["greedy", "prices"].map(str::to_owned);
+    let selection = Selection { policies: &policies, models: &[], seed: 1 };
+    Sweep::new(SweepRequest {
+        network: &paper(),
+        factors: factors(factors_of),
+        design,
+        selection: &selection,
+        drawn: DrawnDays::of_comparison(7, days),
+        bound_step: None,
+    })
+}
+
+/// The files of a folder by name.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entry = |entry: fs::DirEntry| {
+        let name = entry.file_name().into_string().expect("a plain name");
+        (name, fs::read(entry.path()).expect("a file"))
+    };
+    fs::read_dir(folder).expect("a folder").map(|one| entry(one.expect("an entry"))).collect()
+}
+
+fn run(sweep: &Sweep, folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let stop = Stop::default();
+    let records = sweep.run(folder, "vertifleet sweep".to_owned(), false, &stop, |_, _| || ());
+    let records = records.expect("all cells");
+    let summary = SweepReport::of(&records).expect("numbers");
+    records.write_journal(folder).expect("room");
+    let report = vertifleet_report::sweep(&summary, &records);
+    vertifleet_report::folder::write_beside_journal(&report, folder).expect("room");
+    files(folder)
+}
+
+#[test]
+fn a_cell_is_the_changed_network_on_the_days_of_its_base() {
+    let sweep = sweep(&FACTORS, Design::Grid, 3).expect("a sweep");
+    assert_eq!(sweep.cells(), 5, "40 stands are too few for 42 aircraft");
+    let record = sweep.play(3, &Stop::default()).expect("it can be played").expect("a network");
+    let changes = serde_json::json!({"fleet.0.count": 40, "vertiports.*.stands": 6});
+    let network = paper().changed(changes.as_object().expect("changes")).expect("a network");
+    for (at, totals) in record.totals[0].iter().enumerate() {
+        let seed = DaySeed::comparison(7 + at as u64).expect("a seed");
+        let day = network.draw(seed);
+        assert_eq!(day.aircraft, paper().draw(seed).aircraft, "nothing about them has changed");
+        let mut simulation = vertifleet_sim::Simulation::new(std::sync::Arc::new(day));
+        let mut greedy = vertifleet_policy::Greedy;
+        vertifleet_policy::play(&mut simulation, &mut greedy, |_| ()).expect("a whole day");
+        assert_eq!(*totals, simulation.totals());
+        assert_eq!((totals.aircraft_cost_usd, totals.site_cost_usd), (8_000.0, 4_800.0));
+    }
+    assert!(sweep.play(4, &Stop::default()).expect("no network").is_none());
+}
+
+#[test]
+fn an_interrupted_sweep_ends_with_the_same_bytes() {
+    let whole = tempfile::tempdir().expect("a folder");
+    let sweep = sweep(&FACTORS, Design::Grid, 2).expect("a sweep");
+    let expected = run(&sweep, whole.path());
+    let journal = &expected[JOURNAL];
+    for kept in [0, 10, journal.len() / 3, journal.len() / 2, journal.len() - 1] {
+        let folder = tempfile::tempdir().expect("a folder");
+        // A journal that ends within its first line is refused, and the sweep begins again only
+        // if it is empty.
+        let head = journal.iter().position(|&byte| byte == b'\n').expect("a line") + 1;
+        let kept = if kept == 0 { 0 } else { kept.max(head) };
+        fs::write(folder.path().join(JOURNAL), &journal[..kept]).expect("room");
+        assert!(run(&sweep, folder.path()) == expected, "{kept} bytes were kept");
+    }
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let folder = tempfile::tempdir().expect("a folder");
+    assert!(threads.install(|| run(&sweep, folder.path())) == expected, "on one thread");
+}
+
+#[test]
+fn a_stopped_sweep_keeps_what_is_finished() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let sweep = sweep(&FACTORS, Design::Grid, 1).expect("a sweep");
+    let stop = Stop::default();
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
+    let outcome = threads.install(|| {
+        sweep.run(folder.path(), String::new(), false, &stop, |_, _| {
+            || {
+                stop.request();
+            }
+        })
+    });
+    assert_eq!(outcome.err().expect("it was stopped").code().to_string(), "V408");
+    let mut seen = 0;
+    let records = sweep.run(folder.path(), String::new(), false, &Stop::default(), |done, all| {
+        seen = done;
+        assert_eq!(all, 5);
+        || ()
+    });
+    assert!(records.is_ok() && seen == 1, "{seen}");
+}
+
+#[test]
+fn the_report_says_which_design_is_best_and_which_is_the_cheapest_good_one() {
+    let factors = ["fleet.0.count=36..40/1", "vertiports.V1.stands=6,7"];
+    let sweep = sweep(&factors, Design::Grid, 4).expect("a sweep");
+    let folder = tempfile::tempdir().expect("a folder");
+    let records = sweep.run(folder.path(), String::new(), false, &Stop::default(), |_, _| || ());
+    let records = records.expect("all cells");
+    let summary = SweepReport::of(&records).expect("numbers");
+    insta::assert_snapshot!(vertifleet_report::sweep(&summary, &records).text());
+    let json: serde_json::Value = serde_json::from_str(&summary.to_json()).expect("JSON");
+    let cells = json["cells"].as_array().expect("a list");
+    let profit = |cell: &serde_json::Value| {
+        cell["results"][0]["profit_usd"]["mean"].as_f64().expect("a number")
+    };
+    let most = cells.iter().map(profit).fold(f64::NEG_INFINITY, f64::max);
+    assert_eq!(
+        profit(&cells[usize::try_from(json["best"].as_u64().expect("a cell")).expect("small")]),
+        most
+    );
+    let cost =
+        |cell: &serde_json::Value| cell["size"]["fixed_cost_usd"].as_f64().expect("a number");
+    let good = cells.iter().filter(|cell| profit(cell) >= 0.99 * most);
+    let least = good.map(cost).fold(f64::INFINITY, f64::min);
+    let cheapest = usize::try_from(json["cheapest"].as_u64().expect("a cell")).expect("small");
+    assert_eq!(cost(&cells[cheapest]), least);
+}
+
+/// A field of Parquet as the CSV files write it.
+fn written(field: &Field) -> String {
+    match field {
+        Field::Null => String::new(),
+        Field::Bool(flag) => flag.to_string(),
+        Field::Long(number) => number.to_string(),
+        Field::Double(number) => number.to_string(),
+        Field::Str(text) => text.clone(),
+        other => panic!("no column has this type: {other:?}"),
+    }
+}
+
+#[test]
+fn parquet_has_the_columns_and_the_rows_of_csv() {
+    let factors = [
+        "fleet.0.count=40,42",
+        "vertiports.*.stands=5,6",
+        "tariffs.fare_level=1.25",
+        r#"closures=[],[{"start":"07:00:00","end":"09:00:00","vertiports":["V1"]}]"#,
+    ];
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = run(&sweep(&factors, Design::Grid, 2).expect("a sweep"), folder.path());
+    for table in ["cells", "days"] {
+        let mut csv = csv::Reader::from_reader(&files[&format!("{table}.csv")][..]);
+        let names: Vec<String> = csv.headers().expect("names").iter().map(str::to_owned).collect();
+        let rows: Vec<Vec<String>> = csv
+            .records()
+            .map(|row| row.expect("a row").iter().map(str::to_owned).collect())
+            .collect();
+        let parquet = Bytes::from(files[&format!("{table}.parquet")].clone());
+        let reader = SerializedFileReader::new(parquet).expect("a Parquet file");
+        let typed = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row"));
+        let typed: Vec<Vec<(String, Field)>> = typed
+            .map(|row| row.get_column_iter().map(|(n, f)| (n.clone(), f.clone())).collect())
+            .collect();
+        assert_eq!(typed.len(), rows.len(), "{table}");
+        let left_out = rows.iter().filter(|row| row.last().is_some_and(|one| !one.is_empty()));
+        assert!(table == "days" || left_out.count() == 2, "40 stands are too few for 42 aircraft");
+        for (typed, row) in typed.iter().zip(&rows) {
+            assert!(typed.iter().map(|(name, _)| name).eq(&names), "{table}");
+            assert!(
+                typed.iter().map(|(_, field)| written(field)).eq(row.iter().cloned()),
+                "{table}"
+            );
+            assert!(matches!(typed[1].1, Field::Long(_)) && matches!(typed[3].1, Field::Double(_)));
+        }
+    }
+}
+
+#[test]
+fn closures_can_be_varied() {
+    let closed = r#"[{"start":"07:00:00","end":"12:00:00","vertiports":["V1"]}]"#;
+    let sweep = sweep(&[&format!("closures=[],{closed}")], Design::Grid, 2).expect("a sweep");
+    let play = |cell| {
+        let record = sweep.play(cell, &Stop::default()).expect("it can be played");
+        record.expect("a network").totals
+    };
+    let (open, closed) = (play(0), play(1));
+    assert_ne!(open, closed, "the closure matters");
+    let (profit_usd, of_open_usd) = (closed[1][0].profit_usd, open[1][0].profit_usd);
+    assert!(profit_usd < of_open_usd, "{profit_usd} {of_open_usd}");
+}
+
+#[test]
+fn what_cannot_be_swept_is_refused_before_anything_is_played() {
+    let codes = [
+        (vec!["fleet.7.count=1,2"], Design::Grid, "V123"),
+        (vec!["fleet.0.colour=1,2"], Design::Grid, "V106"),
+        (vec!["fleet.0.count=-1,2"], Design::Grid, "V104"),
+        (vec!["fleet.0.count=1..2"], Design::Grid, "V407"),
+        (vec!["fleet.0.count=1..2"], Design::LatinHypercube { cells: 1, seed: 1 }, "V407"),
+        (vec![], Design::Grid, "V407"),
+    ];
+    for (factors, design, code) in codes {
+        let error = sweep(&factors, design, 1).err().expect("no sweep");
+        assert_eq!(error.code().to_string(), code, "{factors:?}: {error}");
+    }
+    assert_eq!(sweep(&FACTORS, Design::Grid, 0).err().expect("no day").code().to_string(), "V402");
+}
