@@ -1,6 +1,8 @@
 //! The arguments of the command line.
 
 mod network;
+#[cfg(test)]
+mod page;
 mod planning;
 #[cfg(feature = "service")]
 mod service;
@@ -26,11 +28,18 @@ pub(crate) use planning::{
 #[cfg(feature = "service")]
 pub(crate) use service::{OperateArguments, ServeAction, ServeArguments, Speed, TokenAction};
 
+/// The help of arguments that several commands take.
+const NETWORK: &str = "Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER";
+const FORCE: &str = "Replace a file that this program did not write or that is read-only; never what the command reads";
+const STEP: &str = "Longest price interval of the bound, minutes, 1 to 60; a shorter one never loosens the bound, and takes longer";
+const SPLIT: &str = "Range of days: comparison, for results; validation, to choose settings and weights; or training. With the latter two, the seed is the number of the first day";
+
 /// Decides where every electric air taxi of an urban fleet flies next.
 #[derive(Debug, Parser)]
 #[command(name = "vertifleet", version, propagate_version = true)]
 pub(crate) struct Arguments {
-    /// Threads to use at most [default: RAYON_NUM_THREADS or the number of cores]
+    /// Largest number of threads; results do not depend on it, except those of plan, which makes a
+    /// search in each thread [default: RAYON_NUM_THREADS or the number of cores]
     #[arg(long, global = true, allow_hyphen_values = true, value_parser = parse_threads)]
     pub(crate) threads: Option<usize>,
     #[command(subcommand)]
@@ -47,32 +56,92 @@ pub(crate) enum Command {
     /// Play a day with one policy
     Simulate(SimulateArguments),
     /// Check a schedule against the rules, independently of the simulator
+    ///
+    /// Takes schedules of any origin, in the form of a trace. Judges each row by what the row
+    /// before it states, so that one mistake is one finding. The exit code is 1 if a rule is
+    /// broken.
     Check(CheckArguments),
     /// Break a day's profit down, and price one more stand, aircraft or seat
+    ///
+    /// Plays a day, proves its upper bound, and prints the ledger, the demand carried and spilled,
+    /// how full each vertiport was, and what each aircraft did. Then solves changed days, with the
+    /// policy and with the bound: one more stand at each of the eight vertiports with the highest
+    /// shadow prices, one more aircraft of each type, one more seat in each type, and take-offs a
+    /// minute shorter.
     Explain(ExplainArguments),
     /// Write a played or planned day in the formats of other programs
+    ///
+    /// geojson and gtfs need vertiports with latitude and longitude.
     Export(ExportArguments),
-    /// Prove how much a known day can earn at most
+    /// Prove an upper bound on the profit of a known day
+    ///
+    /// Bounds several days in parallel, a thread for each, and prints their means. These days must
+    /// have the same vertiports.
     Bound(BoundArguments),
-    /// Find the best schedule for a known day, and say how far from the best it may be
+    /// Find a good schedule for a known day, and bound its distance from the best
+    ///
+    /// The schedule earns no less than any shipped policy whose day could be played in time. Ctrl-C
+    /// ends the search and writes the best schedule found; a second Ctrl-C ends the program at
+    /// once. Two runs with the same time limit may differ.
     Plan(PlanArguments),
     /// Train a policy on days of a network
+    ///
+    /// Writes weights, learning curve, checkpoint and a TensorBoard log. Ctrl-C abandons the update
+    /// under way, writes the run as it stood before, and ends with exit code 0; a second Ctrl-C
+    /// ends the program at once. A folder with the checkpoint of an earlier run of the same policy
+    /// is refused without --resume.
     Train(TrainArguments),
-    /// Play many days with many policies and report who earns what
+    /// Play many days with many policies, and compare their profits
+    ///
+    /// Prints the policies by mean profit, and a paired t-test for each pair. Time per decision is
+    /// measured one decision at a time, and is the only number that differs between two runs.
+    ///
+    /// Keeps bounds in $XDG_CACHE_HOME/vertifleet, or ~/.cache/vertifleet, which can be removed at
+    /// any time. Ctrl-C keeps the bounds that were proven, and writes no report.
     Compare(CompareArguments),
-    /// Play the same days under many settings of a network: what is a change worth?
+    /// Play the same days under many settings of a network
+    ///
+    /// Each combination of values is a cell: the network with these members changed. All cells have
+    /// the same days. Demand, delays and closures have the same random numbers wherever a change
+    /// allows it, and aircraft start where they start on the unchanged network. So differences
+    /// between cells are far less noisy than profits. Where a network has an elasticity, its demand
+    /// is that at its own fares, whatever a cell changes.
+    ///
+    /// The report names the design that earns most, and the cheapest that earns at most 1 % less. A
+    /// cell with more aircraft than stands is left out. An interrupted sweep goes on with the
+    /// missing cells when the same command is given again, and ends with the same bytes.
     Sweep(SweepArguments),
     /// Find how many aircraft, stands and chargers a network should have
+    ///
+    /// Bounds all designs first, then plays the most promising ones on the same days. Prints the
+    /// best design, its results on further days that the search has not used, and a certificate: a
+    /// bound on how much more the best schedule of any design could earn. "One more adds at most"
+    /// is the shadow price after costs. best.toml is the network file of the design, with all
+    /// comments. An interrupted search goes on when the same command is given again, and ends with
+    /// the same bytes.
     Size(SizeArguments),
     /// Measure policies on frozen suites of days or on random networks, and verify results
+    ///
+    /// Prints for each policy the mean share of the suite's certified bounds with its 95 %
+    /// interval, the lowest share, the mean profit, the difference from the first policy in
+    /// percentage points of the bound with the p-value of the paired t-test (Holm), and the time of
+    /// one decision. A policy that cannot play a suite is left out of it. The random policy and the
+    /// search of plan have seed 1.
     Evaluate(EvaluateArguments),
-    /// Run the dispatch service: live days over HTTP
+    /// Run the dispatch service: live days over HTTP, with a console at /
+    ///
+    /// Ctrl-C ends it after the requests that it is carrying out.
     #[cfg(feature = "service")]
     Serve(ServeArguments),
     /// Operate a day through a dispatch service, as an operator would
+    ///
+    /// Makes a day, reports events when they become known, and requests a decision whenever an
+    /// aircraft is ready. The profit is that of simulate, to the cent. Where the network has a time
+    /// zone, the day is today there. Sends requests again for half a minute if the service does not
+    /// answer. Takes the token from the variable VERTIFLEET_TOKEN.
     #[cfg(feature = "service")]
     Operate(OperateArguments),
-    /// Not in this build, which was made for `make demo`
+    /// Not in this build, which was made for make demo
     #[cfg(not(feature = "service"))]
     #[command(hide = true, alias = "operate")]
     Serve {
@@ -84,21 +153,18 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct ScenarioArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded,
-    /// san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
+    #[arg(help = NETWORK)]
     pub(crate) network: String,
-    /// Seed of the first day; the following days take the following seeds
+    /// Seed of the first day, below 2^40; the following days take the following seeds
     #[arg(long, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: u64,
-    /// Number of days
+    /// Number of days, 1 to 1000000, each written to the file NAME-SEED.json
     #[arg(long, allow_hyphen_values = true, value_parser = parse_count)]
     pub(crate) days: Option<u32>,
-    /// File for one day, folder for several (with --days) [default: the day goes to stdout]
+    /// File for one day, folder for several [default: stdout, and the current folder with --days]
     #[arg(short, long, value_name = "FILE|DIR")]
     pub(crate) output: Option<PathBuf>,
-    /// Replace a file that this program did not write or that is read-only; never what the command
-    /// reads
-    #[arg(long)]
+    #[arg(long, help = FORCE)]
     pub(crate) force: bool,
 }
 
@@ -106,8 +172,8 @@ pub(crate) struct ScenarioArguments {
 pub(crate) struct SimulateArguments {
     /// Scenario file
     pub(crate) scenario: PathBuf,
-    /// random, greedy, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K, gcaps-full,
-    /// mlp-full, or replay:TRACE
+    /// Policy: random, greedy, prices, rolling, gcaps, mlp, gcaps-x, gcaps-x:rollouts=K,
+    /// gcaps-full, mlp-full, or replay:TRACE
     #[arg(long, value_parser = parse_name)]
     pub(crate) policy: String,
     /// Seed of the random policy
@@ -123,9 +189,7 @@ pub(crate) struct SimulateArguments {
     /// file
     #[arg(long, value_name = "FILE")]
     pub(crate) report: Option<PathBuf>,
-    /// Replace a file that this program did not write or that is read-only; never what the command
-    /// reads
-    #[arg(long)]
+    #[arg(long, help = FORCE)]
     pub(crate) force: bool,
     /// Print the day's numbers as JSON
     #[arg(long)]
@@ -145,15 +209,13 @@ pub(crate) struct CheckArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct BoundArguments {
-    /// Scenario file; several of them, or a folder with them (all *.json), give means over days too
+    /// Scenario files, or a folder with them (all *.json)
     #[arg(required = true, value_name = "SCENARIO|DIR")]
     pub(crate) scenarios: Vec<PathBuf>,
-    /// Longest price interval, minutes, 1 to 60; slices have 60, 15, 5, 3 or 1 minutes. Fewer never
-    /// give a looser bound, and take longer
-    #[arg(long, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
+    #[arg(long, help = STEP, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
-    /// Bound also what can be earned on the mean without knowing take-off delays, on days drawn
-    /// from this network
+    /// Also bound the mean profit without knowledge of take-off delays, on days drawn from this
+    /// network
     #[arg(long, value_name = "NETWORK")]
     pub(crate) without_foresight: Option<String>,
     /// Print bounds and shadow prices as JSON
@@ -168,19 +230,16 @@ pub(crate) struct PlanArguments {
     /// Write the schedule, every decision of the day, to this CSV file
     #[arg(short, long, value_name = "TRACE")]
     pub(crate) output: PathBuf,
-    /// Seconds that it takes at most, start and proof included; 0 gives the day of greedy
+    /// Time limit, seconds, for policies, search and proof; 0 gives the day of greedy
     #[arg(long, value_name = "S", default_value = "60", allow_hyphen_values = true, value_parser = parse_seconds)]
     pub(crate) time_limit: Duration,
-    /// Stop as soon as the gap to the certified bound is no more than this share of the bound, as
-    /// 0.03
+    /// Stop when the gap is at most this share of the certified bound, as 0.03
     #[arg(long, value_name = "G", allow_hyphen_values = true, value_parser = parse_share)]
     pub(crate) gap: Option<f64>,
     /// Seed of the search
     #[arg(long, default_value_t = 0, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: u64,
-    /// Replace a file that this program did not write or that is read-only; never what the command
-    /// reads
-    #[arg(long)]
+    #[arg(long, help = FORCE)]
     pub(crate) force: bool,
     /// Print the plan's numbers as JSON
     #[arg(long)]
@@ -194,9 +253,9 @@ pub(crate) enum Trainable {
     Gcaps,
     /// The paper's baseline: plain layers
     Mlp,
-    /// One network for networks of any size, beside the day's prices
+    /// For networks of any size, with the day's prices
     GcapsX,
-    /// One network for networks of any size, with the forecast and the fleet and without prices
+    /// For networks of any size, with forecast and fleet, without prices
     GcapsFull,
     /// The same observation flattened, for networks of one size
     MlpFull,
@@ -217,77 +276,71 @@ impl Trainable {
 
 #[derive(Debug, Args)]
 pub(crate) struct TrainArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded,
-    /// san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER;
-    /// random or random-places:SIZE for a new network each day
+    /// Network, as scenario takes it; random or random-places:SIZE draws a new network each day
     #[arg(long)]
     pub(crate) network: String,
-    /// Kind of policy
+    /// Policy to train
     #[arg(long)]
     pub(crate) policy: Trainable,
     /// Settings to start from: default, or evolution; for gcaps and mlp also paper (Table 2) or
     /// imitation
     #[arg(long, default_value = "default")]
     pub(crate) preset: String,
-    /// Decisions to learn from, in place of the preset's
+    /// Decisions to learn from, for PPO only [default: the preset's]
     #[arg(long, allow_hyphen_values = true, value_parser = parse_steps)]
     pub(crate) steps: Option<u64>,
-    /// Seed of the run: first weights, training days and choices follow from it
+    /// Seed of the run, below 2^24: first weights, training days and choices follow from it
     #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed_of_a_run)]
     pub(crate) seed: u32,
-    /// Weights to begin with, of the same kind of policy, in place of fresh ones; sizes are those
-    /// of the weights
+    /// Weights to begin with, of the same policy, whose sizes they set [default: fresh ones]
     #[arg(long, value_name = "FILE")]
     pub(crate) begin_with: Option<PathBuf>,
     /// Folder for weights, learning curve and checkpoint
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
-    /// Go on from the checkpoint in the folder
+    /// Continue from the checkpoint in the folder, with the same arguments
     #[arg(long)]
     pub(crate) resume: bool,
-    /// Replace a file that this program did not write or that is read-only; never what the command
-    /// reads
-    #[arg(long)]
+    #[arg(long, help = FORCE)]
     pub(crate) force: bool,
-    /// Change one setting; may be given several times
+    /// Change one setting, a size of the policy or its graph; may be given several times
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = parse_pair)]
     pub(crate) set: Vec<(String, String)>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct CompareArguments {
-    /// Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded,
-    /// san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER
-    #[arg(long, required_unless_present = "days_from")]
+    #[arg(long, required_unless_present = "days_from", help = NETWORK)]
     pub(crate) network: Option<String>,
-    /// Days of your own in place of drawn ones: scenario files, or a folder with them (all *.json,
+    /// Play these days in place of drawn ones: scenario files, or a folder with them (all *.json,
     /// in the order of their names)
+    ///
+    /// All days must have the same vertiports in the same order, and different names. Fleets,
+    /// demand, tariffs, times and disturbances may differ. The name chooses the shipped weights, as
+    /// paper-7 those of paper. Results have no published figures and no learning curves.
     #[arg(long, value_name = "DIR|FILE", num_args = 1.., conflicts_with_all = ["network", "days", "seed", "split"])]
     pub(crate) days_from: Vec<PathBuf>,
     /// Policies, separated by commas: random, greedy, prices, rolling, gcaps, mlp, gcaps-x,
-    /// gcaps-x:rollouts=K (which rolls its K best choices out), names given by --model, and plan,
-    /// the planner, which knows the days beforehand
+    /// gcaps-x:rollouts=K (which rolls its K best choices out), gcaps-full, names given by --model,
+    /// and plan, the planner, which knows the days beforehand
     #[arg(long, value_delimiter = ',', required = true, value_parser = parse_name)]
     pub(crate) policies: Vec<String>,
-    /// Number of days
+    /// Number of days, 1 to 1000000
     #[arg(long, required_unless_present = "days_from", allow_hyphen_values = true, value_parser = parse_count)]
     pub(crate) days: Option<u32>,
-    /// Seed of the first day, and of the random policy [default: 1, and 0 with --days-from]
+    /// Seed of the first day, below 2^40, and of the random policy [default: 1, and 0 with
+    /// --days-from]
     #[arg(long, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: Option<u64>,
-    /// Whose days: comparison, for results; validation, to choose settings and weights; or
-    /// training. With the latter two, the seed is the number of the first day
-    #[arg(long, default_value = "comparison", value_parser = parse_split)]
+    #[arg(long, help = SPLIT, default_value = "comparison", value_parser = parse_split)]
     pub(crate) split: Purpose,
-    /// Weights for a policy name; may be given several times
+    /// Weights for a policy of that name; may be given several times
     #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
     pub(crate) models: Vec<(String, PolicySource)>,
-    /// Prove an upper bound of every day and show each policy's share of it
+    /// Prove an upper bound on every day, and print each policy's share of it
     #[arg(long)]
     pub(crate) bound: bool,
-    /// Longest price interval of the bound, minutes, 1 to 60; shorter is never looser and takes
-    /// longer
-    #[arg(long, value_name = "MIN", default_value_t = 5, requires = "bound", allow_hyphen_values = true, value_parser = parse_minutes)]
+    #[arg(long, help = STEP, value_name = "MIN", default_value_t = 5, requires = "bound", allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
     #[command(flatten)]
     pub(crate) presented: PresentedArguments,
@@ -296,33 +349,31 @@ pub(crate) struct CompareArguments {
 #[derive(Debug, Args)]
 pub(crate) struct EvaluateArguments {
     /// Suites, separated by commas: paper-100, disrupted-100, new-york-100, cities-100, random-50,
-    /// random-places-100, large, or all; random:N is a day of each of N random networks, whose
-    /// bounds are proven first
+    /// random-places-100, large, or all; random:N is a day of each of the networks random:0 to
+    /// random:N-1, which no training draws and whose bounds are proven first
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "paper-100", value_parser = parse_name)]
     pub(crate) suite: Vec<String>,
     /// Policies, separated by commas, as compare takes them; the others are measured against the
     /// first
     #[arg(long, value_delimiter = ',', required_unless_present = "verify", value_parser = parse_name)]
     pub(crate) policies: Vec<String>,
-    /// Weights for a policy name; may be given several times
+    /// Weights for a policy of that name; may be given several times
     #[arg(long = "model", value_name = "NAME=PATH", value_parser = parse_model)]
     pub(crate) models: Vec<(String, PolicySource)>,
     /// Write a result file for each suite and policy into this folder
     #[arg(long, value_name = "DIR")]
     pub(crate) results: Option<PathBuf>,
-    /// What to say about the policies in the result files, as training=NONE; may be given several
-    /// times
+    /// Note in the result files, as training=NONE; may be given several times
     #[arg(long, value_name = "NAME=TEXT", requires = "results", value_parser = parse_pair)]
     pub(crate) about: Vec<(String, String)>,
-    /// Verify result files: play their choices, and compute everything that they claim again
+    /// Verify result files: play their choices again, and recompute every claim; the exit code is 1
+    /// if one does not hold
     #[arg(long, value_name = "RESULT", num_args = 1.., conflicts_with_all = ["suite", "policies", "models", "results", "about", "force"])]
     pub(crate) verify: Vec<PathBuf>,
     /// Print the results as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Replace a file that this program did not write or that is read-only; never what the command
-    /// reads
-    #[arg(long)]
+    #[arg(long, help = FORCE)]
     pub(crate) force: bool,
 }
 

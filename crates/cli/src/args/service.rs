@@ -6,38 +6,39 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 use vertifleet_serve::Role;
 
+use super::NETWORK;
 use crate::typed::{parse_name, parse_seed};
 
 #[derive(Debug, Args)]
 pub(crate) struct ServeArguments {
-    /// Address to listen on
+    /// Address to listen on; one beyond this machine needs a token, and TLS or --behind-proxy
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:8080")]
     pub(crate) listen: SocketAddr,
     /// Folder of the data, made at the first start
     #[arg(long, value_name = "DIR", default_value = "vertifleet-data", global = true)]
     pub(crate) data: PathBuf,
-    /// PostgreSQL database to keep the data in, instead of the folder
+    /// PostgreSQL database to keep the data in, in place of the folder
     #[arg(long, value_name = "URL", global = true)]
     pub(crate) database: Option<String>,
-    /// Speak TLS with the certificate in this PEM file, its chain included
+    /// Use TLS with the certificate chain in this PEM file, read at the start
     #[arg(long, value_name = "FILE", requires = "key")]
     pub(crate) certificate: Option<PathBuf>,
     /// PEM file with the key of the certificate
     #[arg(long, value_name = "FILE", requires = "certificate")]
     pub(crate) key: Option<PathBuf>,
-    /// A proxy that speaks TLS stands before the service, which may then listen on other addresses
+    /// Allow other addresses without TLS, because a proxy in front of the service provides it
     #[arg(long, conflicts_with = "certificate")]
     pub(crate) behind_proxy: bool,
-    /// Send spans of requests to this collector of OpenTelemetry [default:
-    /// OTEL_EXPORTER_OTLP_ENDPOINT, or to none]
+    /// Send spans of requests to this OpenTelemetry collector, as http://127.0.0.1:4318 [default:
+    /// OTEL_EXPORTER_OTLP_ENDPOINT, or none]
     #[arg(long, value_name = "URL")]
     pub(crate) otlp: Option<String>,
-    /// Show this base map in the console instead of the bundled one: a style of MapLibre, or a
-    /// PMTiles file
+    /// Base map of the console: a MapLibre style, whose resources have the same origin, or a
+    /// PMTiles file [default: the bundled one]
     #[arg(long, value_name = "URL")]
     pub(crate) basemap: Option<String>,
     /// Show simulated, disturbed days of New York at 60 times their speed, one after the other, and
-    /// keep nothing
+    /// delete their data at the end
     #[arg(long, conflicts_with_all = ["data", "database", "certificate", "behind_proxy"])]
     pub(crate) demo: bool,
     #[command(subcommand)]
@@ -47,45 +48,53 @@ pub(crate) struct ServeArguments {
 #[derive(Debug, Subcommand)]
 pub(crate) enum ServeAction {
     /// Make, list and revoke tokens
+    ///
+    /// Once there is a token, every request needs one (Authorization: Bearer vf_...), except those
+    /// for the files of the console, /healthz and /readyz.
     #[command(subcommand)]
     Token(TokenAction),
-    /// Check every event of every day
+    /// Check and play every event of every day; the exit code is 1 if something is damaged
     Verify,
-    /// Copy the data to a new file, while the service may run
+    /// Copy the data to a new file; the service may be running
     Backup {
-        /// The file
+        /// New file
         file: PathBuf,
     },
-    /// Put a copy back, into a folder without data
+    /// Restore a copy into a folder without data
     Restore {
-        /// The copy
+        /// Copy
         file: PathBuf,
     },
-    /// Print who did what beside the events of days, a JSON object a line
+    /// Print all actions except events of days: days, networks, policies and tokens that users
+    /// made, changed or deleted
+    ///
+    /// Each line is a JSON object with at_ms (milliseconds of the Unix clock), actor (the name of
+    /// the token), action and target.
     Audit,
     /// Print a day with all its events as JSON
     Export {
-        /// The id of the day
+        /// Id of the day
         day: String,
     },
 }
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum TokenAction {
-    /// Make a token and print it; it cannot be printed again
+    /// Make a token and print it; it is stored as a hash and cannot be printed again
     Make {
-        /// What the token is called in the record of who did what
+        /// Name of the token, which the audit records as the actor
         #[arg(long, value_parser = parse_token_name)]
         name: String,
-        /// What it permits
+        /// Role: read; dispatch, which adds events, decisions and new days; or admin, which adds
+        /// networks, policies, and archiving, reopening and deleting days
         #[arg(long, value_parser = parse_role)]
         role: Role,
     },
     /// List the tokens, without their secrets, as JSON
     List,
-    /// Revoke a token
+    /// Revoke a token; the service refuses it after at most two seconds
     Revoke {
-        /// The token's id, which is the part after vf_
+        /// Id of the token, the part after vf_
         id: String,
     },
 }
@@ -94,22 +103,22 @@ pub(crate) enum TokenAction {
 pub(crate) struct OperateArguments {
     /// Address of the service, for example http://127.0.0.1:8080
     pub(crate) url: String,
-    /// Network file, the name of a shipped network, random:NUMBER, or random-places:SIZE:NUMBER
-    #[arg(long, default_value = "paper")]
+    #[arg(long, help = NETWORK, default_value = "paper")]
     pub(crate) network: String,
     /// Seed of the day
     #[arg(long, default_value_t = 1, allow_hyphen_values = true, value_parser = parse_seed)]
     pub(crate) seed: u64,
-    /// The policy that decides
+    /// Policy that decides
     #[arg(long, default_value = "gcaps-x", value_parser = parse_name)]
     pub(crate) policy: String,
-    /// Seconds of the day that pass in a second, or max
+    /// Speed: seconds of the day in a second, or max
     #[arg(long, default_value = "max", value_parser = parse_speed)]
     pub(crate) speed: Speed,
-    /// Leave the decisions to others, such as people at the console, and wait for each
+    /// Leave the decisions to others, such as people at the console, and wait until every ready
+    /// aircraft has one
     #[arg(long)]
     pub(crate) by_hand: bool,
-    /// PEM file with certificates to trust, for a service whose certificate is its own
+    /// PEM file with certificates to trust, for a service with a self-signed certificate
     #[arg(long, value_name = "FILE")]
     pub(crate) trust: Option<PathBuf>,
     /// Print the day's numbers as JSON

@@ -1,38 +1,15 @@
 //! Checks that the documentation is true: the error index, the links, the architecture page and the
-//! command reference must match the code and the folders.
+//! commands in the pages must match the code and the folders.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use assert_cmd::Command;
 use serde_json::Value;
 use vertifleet_learn::nn::Architecture;
 use vertifleet_learn::{EvolutionSettings, ImitationSettings, TrainingSettings};
 
 type Names = BTreeSet<String>;
-
-const COMMANDS: &[&str] = &[
-    "network", "scenario", "simulate", "check", "explain", "export", "bound", "plan", "train",
-    "compare", "sweep", "size", "evaluate", "serve", "operate",
-];
-
-/// Commands within commands.
-const SUBCOMMANDS: &[&str] = &[
-    "network import",
-    "network check",
-    "network show",
-    "network new",
-    "network diff",
-    "serve token make",
-    "serve token list",
-    "serve token revoke",
-    "serve verify",
-    "serve backup",
-    "serve restore",
-    "serve export",
-    "serve audit",
-];
 
 fn root() -> PathBuf {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("crates/cli is in a folder");
@@ -223,25 +200,29 @@ fn the_architecture_page_names_every_package_of_the_console() {
     assert_eq!(named, asked.collect());
 }
 
-/// The output of `vertifleet ... --help`.
-fn help(arguments: &[&str]) -> String {
-    let output = Command::cargo_bin("vertifleet").expect("the program").args(arguments).output();
-    String::from_utf8(output.expect("the program runs").stdout).expect("help is text")
-}
-
 /// The long flags in a text, which are the words that begin with two dashes.
 fn long_flags(text: &str) -> Names {
     let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
     words.filter(|word| word.len() > 2 && word.starts_with("--")).map(str::to_owned).collect()
 }
 
-/// The flags that help lists. Their descriptions are left out, because they may mention other
-/// flags.
-fn flags_in_help(help: &str) -> Names {
-    let options = help.lines().filter(|line| line.trim_start().starts_with('-'));
-    options
-        .flat_map(|line| long_flags(line.trim_start().split("  ").next().unwrap_or("")))
-        .collect()
+/// The commands of the reference with their flags, the longest names first.
+fn commands() -> Vec<(String, Names)> {
+    let page = text("docs/src/reference/commands.md");
+    let (_, sections) = page.split_once("\n## Every command\n").expect("a section of that name");
+    let (everywhere, sections) = sections.split_once("\n## ").expect("sections of commands");
+    let everywhere = flags_in_section(everywhere);
+    let mut commands = Vec::new();
+    for section in sections.split("\n## ") {
+        // The flags of `serve` that its inner commands take too are listed once.
+        let outer = &flags_in_section(section.split("\n### ").next().unwrap_or("")) | &everywhere;
+        for section in section.split("\n### ") {
+            let (command, section) = section.split_once('\n').expect("a heading");
+            commands.push((format!("{command} "), &flags_in_section(section) | &outer));
+        }
+    }
+    commands.sort_by_key(|(command, _)| std::cmp::Reverse(command.len()));
+    commands
 }
 
 /// The flags that a section's table lists.
@@ -250,67 +231,19 @@ fn flags_in_section(section: &str) -> Names {
     rows.flat_map(|row| long_flags(row.split('|').nth(1).expect("a first cell"))).collect()
 }
 
-/// The section of the command reference with this heading.
-fn section(heading: &str) -> String {
-    let page = text("docs/src/reference/commands.md");
-    let (_, rest) = page.split_once(&format!("\n## {heading}\n")).expect("a section of that name");
-    rest.split("\n## ").next().expect("split gives at least one part").to_owned()
-}
-
-#[test]
-fn the_command_reference_lists_the_flags_that_help_lists() {
-    let everywhere = flags_in_section(&section("Every command"));
-    assert_eq!(flags_in_help(&help(&["--help"])), everywhere);
-    let help_of_the_program = help(&["--help"]);
-    for &command in COMMANDS {
-        let section = section(&format!("vertifleet {command}"));
-        let mut listed = flags_in_section(&section);
-        listed.extend(everywhere.iter().cloned());
-        let mut known = flags_in_help(&help(&[command, "--help"]));
-        let inner = SUBCOMMANDS.iter().filter(|inner| inner.starts_with(&format!("{command} ")));
-        for inner in inner {
-            let words: Vec<&str> = inner.split(' ').chain(["--help"]).collect();
-            known.extend(flags_in_help(&help(&words)));
-        }
-        assert_eq!(listed, known, "{command}");
-        assert!(help_of_the_program.contains(&format!("\n  {command} ")), "{command} is a command");
-    }
-    let (_, listed) = help_of_the_program.split_once("Commands:\n").expect("a list of commands");
-    let listed = listed.lines().take_while(|line| !line.is_empty()).count();
-    assert_eq!(listed, COMMANDS.len() + 1, "these commands and help, no other");
-}
-
 #[test]
 fn commands_in_the_pages_use_flags_that_exist() {
-    for &command in COMMANDS.iter().chain(SUBCOMMANDS) {
-        let words: Vec<&str> = command.split(' ').chain(["--help"]).collect();
-        let known = flags_in_help(&help(&words));
-        for page in pages() {
-            let page_text = text(&page).replace("\\\n", " ");
-            for line in page_text.lines().filter(|line| !line.starts_with('|')) {
-                let Some((_, rest)) = line.split_once(&format!("vertifleet {command} ")) else {
-                    continue;
-                };
-                let is_inner = |other: &&str| {
-                    other.starts_with(&format!("{command} ")) && line.contains(*other)
-                };
-                if SUBCOMMANDS.iter().any(is_inner) {
-                    continue;
-                }
-                let used = long_flags(rest);
-                assert!(used.is_subset(&known), "{}: {line}", page.display());
+    let commands = commands();
+    for page in pages() {
+        let page_text = text(&page).replace("\\\n", " ");
+        for line in page_text.lines().filter(|line| !line.starts_with('|')) {
+            let used = commands.iter().find_map(|(command, known)| {
+                line.split_once(command.as_str()).map(|(_, rest)| (long_flags(rest), known))
+            });
+            if let Some((used, known)) = used {
+                assert!(used.is_subset(known), "{}: {line}", page.display());
             }
         }
-    }
-}
-
-#[test]
-fn the_command_reference_lists_the_rules_of_the_checker() {
-    let source = text("crates/sim/src/check/rule.rs");
-    let rules = source.split("= \"").skip(1).filter_map(|rest| rest.split('"').next());
-    let section = section("vertifleet check");
-    for rule in rules {
-        assert!(section.contains(&format!("| `{rule}` |")), "{rule} is not listed");
     }
 }
 
