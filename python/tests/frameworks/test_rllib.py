@@ -1,9 +1,5 @@
 """Training with RLlib: what it plays, what it learns, and that the program decides as the trained network."""
 
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -346,20 +342,3 @@ def test_a_network_that_is_not_known_or_not_the_one_trained_on_is_refused(paper,
             header_of(config, path, network=network)
         assert refused.value.code == "V451"
     assert not path.exists()
-
-
-EXAMPLE = Path(__file__).parents[2] / "examples" / "rllib_ppo.py"
-
-
-def test_the_example_asks_first_whether_the_file_can_be_written(tmp_path):
-    command = [
-        sys.executable,
-        str(EXAMPLE),
-        "--steps",
-        "1",
-        "--out",
-        str(tmp_path / "nowhere" / "x.safetensors"),
-    ]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 2
-    assert "make the folder" in done.stderr
