@@ -1,4 +1,4 @@
-"""Editors show of the extension module what Python's `help` shows."""
+"""The stub and the page of the book have the docstrings of the package."""
 
 from __future__ import annotations
 
@@ -6,10 +6,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-STUB_DOCS = Path(__file__).resolve().parents[1] / "tools/stub_docs.py"
+import pytest
+
+TOOLS = Path(__file__).resolve().parents[1] / "tools"
 
 
-def test_the_stub_has_the_docstrings_of_the_extension_module(tmp_path: Path) -> None:
-    command = [sys.executable, str(STUB_DOCS), "--check"]
+@pytest.mark.parametrize("tool", ["stub_docs.py", "api_page.py"])
+def test_what_is_made_of_docstrings_is_as_they_are(tool: str, tmp_path: Path) -> None:
+    command = [sys.executable, str(TOOLS / tool), "--check"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

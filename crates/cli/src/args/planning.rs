@@ -26,9 +26,10 @@ pub(crate) struct SweepArguments {
     /// tariffs.fare_level=0.8,1,1.2; may be given several times
     ///
     /// A range has a step. A value that begins with a bracket, a brace or a quote is JSON, as in
-    /// closures=[],[{"start":"07:00:00","end":"09:00:00"}]. An entry of a list is named by its id (in
-    /// the fleet by its type) or by its position from 0, and * names all entries: vertiports.*.stands.
-    /// A name with a dot or an equals sign stands in double quotes: vertiports."St. John".stands.
+    /// closures=[],[{"start":"07:00:00","end":"09:00:00"}]. An entry of a list is named by its id
+    /// (in the fleet by its type) or by its position from 0, and * names all entries:
+    /// vertiports.*.stands. A name with a dot or an equals sign stands in double quotes:
+    /// vertiports."St. John".stands.
     #[arg(long, value_name = "PATH=VALUES", required = true, value_parser = parse_factor)]
     pub(crate) vary: Vec<Factor>,
     /// Draw a Latin hypercube of this many cells in place of all combinations; ranges then need no
