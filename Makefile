@@ -38,6 +38,7 @@ lint: prepare python tools console-ready
 	python/.venv/bin/typos
 	scripts/prose
 	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
+	target/tools/bin/mdbook build docs
 	shellcheck .ci/run benches/table2/figure $$(find scripts -type f ! -name prose)
 	cd web && npm run check
 
@@ -79,7 +80,7 @@ console-ready: prepare
 soak: prepare database
 	VERTIFLEET_KILLS=1000 cargo test $(CHECKED) --test cli serve_killed -- --nocapture
 
-# What the lints need beside Rust and Python.
+# What the lints need besides Rust and Python.
 tools: prepare
 	@scripts/tools
 

@@ -126,6 +126,7 @@ fn the_page_of_errors_is_made_of_the_comments_in_the_code() {
 
 #[test]
 fn every_link_leads_somewhere() {
+    let book = root().join("docs/src").canonicalize().expect("the folder of the book");
     for page in pages() {
         let folder = page.parent().expect("a page is in a folder");
         for target in prose(&text(&page)).split("](").skip(1) {
@@ -136,6 +137,9 @@ fn every_link_leads_somewhere() {
             let (path, anchor) = target.split_once('#').unwrap_or((target, ""));
             let file = if path.is_empty() { page.clone() } else { folder.join(path) };
             assert!(file.exists(), "{}: nothing at {target}", page.display());
+            let file = file.canonicalize().expect("a file that exists");
+            let leaves_the_book = page.starts_with(&book) && !file.starts_with(&book);
+            assert!(!leaves_the_book, "{}: leaves the book: {target}", page.display());
             let leads =
                 anchor.is_empty() || headings(&text(&file)).any(|heading| slug(heading) == anchor);
             assert!(leads, "{}: no such heading: {target}", page.display());
