@@ -79,7 +79,7 @@ test('a token is asked for, kept out of addresses, and says what one may do', as
   const field = page.getByRole('textbox', { name: 'Token' }).or(page.locator('input[type=password]'))
   await field.fill('vf_wrong')
   await page.getByRole('button', { name: 'Sign in' }).click()
-  await expect(page.getByText('does not know this token')).toBeVisible()
+  await expect(page.getByText('The token is invalid or revoked')).toBeVisible()
   await field.fill(looks)
   await page.getByRole('button', { name: 'Sign in' }).click()
   await expect(page.getByText('You may look at this day')).toBeVisible()

@@ -320,7 +320,7 @@ export const studies = {
   replay: 'Replay',
   replayHint: 'The first days as each policy played them',
   report: 'Report',
-  reportHint: 'A page of its own, with all numbers and figures',
+  reportHint: 'A separate page with all numbers and figures',
   saveReport: 'Save the report',
   command: 'The same study without the service',
   copy: 'Copy',

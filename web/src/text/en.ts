@@ -51,7 +51,7 @@ export const en = {
     healing: 'Reconnecting',
     lost: 'Connection lost',
     lostHint:
-      'What you see is as it was. It goes on by itself when the service is back; nothing that you typed is lost.',
+      'What you see may be out of date. Updates resume when the service is back; nothing that you typed is lost.',
     refused: (why: string) =>
       `What you see is as it was: the service sends no more of this day. It says: ${why}`,
   },
@@ -65,15 +65,15 @@ export const en = {
     notFound: {
       day: (id: string) => ({
         title: `There is no day “${id}” here.`,
-        hint: 'It may have been deleted, or the link is that of another service.',
+        hint: 'It may have been deleted, or the link belongs to another service.',
       }),
       study: (id: string) => ({
         title: `There is no study “${id}” here.`,
-        hint: 'It may have been deleted. Studies are also gone when the service has been started anew.',
+        hint: 'It may have been deleted. A restart of the service also deletes studies.',
       }),
       network: (id: string) => ({
         title: `There is no network “${id}” here.`,
-        hint: 'It may have been deleted, or the link is that of another service.',
+        hint: 'It may have been deleted, or the link belongs to another service.',
       }),
       policy: (id: string) => ({
         title: `There is no policy “${id}”.`,
@@ -90,7 +90,7 @@ export const en = {
     make: 'An administrator makes one with:',
     signIn: 'Sign in',
     signOut: 'Sign out',
-    refused: 'The service does not know this token, or it was revoked.',
+    refused: 'The token is invalid or revoked.',
   },
 
   days: {
@@ -148,7 +148,7 @@ export const en = {
     expectedHint: (policy: string) => `What the day earns if ${policy} takes every decision from now on.`,
     bound: 'At most from now on',
     boundHint:
-      'Proven: however the rest of the day is decided, the whole day ends with no more than this, as far as is known now. It is a bound of the day as it can still end, not of the day from the morning: what could have been earned earlier is no longer part of it.',
+      'A proven upper bound on the profit of the whole day, for all decisions that are still open and what is known now. It does not include what earlier decisions could have earned.',
     noBound: 'The rest of the day is too large to be bounded quickly.',
     shareOfBound: (share: string) => `${share} expected`,
     passengers: 'Passengers',
@@ -160,7 +160,7 @@ export const en = {
       'How much faster than real time the day passes, about. Between two events the clock goes on at this speed, for two minutes of the day at most.',
     still: 'stands still',
     stillAwaited: 'This simulated day goes on when the aircraft that wait for a decision have been decided.',
-    stillHint: 'Nothing more is heard of this day. The clock shows the time of its latest event.',
+    stillHint: 'No new events. The clock shows the time of the latest one.',
     times: (speed: number) => `×${speed}`,
     map: 'Map',
     fleet: 'Fleet timeline',
@@ -257,7 +257,7 @@ export const en = {
     },
     reason: 'Reason',
     reasonHint: (to: string) => `Why ${to}? The log keeps it.`,
-    reasonMissing: 'Say why, so that others understand it later.',
+    reasonMissing: 'Enter a reason, which the log keeps.',
     destination: 'Destination',
     send: 'Override',
     taken: (aircraft: string, to: string) => `${aircraft} flies to ${to}.`,
