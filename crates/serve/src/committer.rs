@@ -2,15 +2,13 @@
 //! clients share the cost of one write to the disk, and answers each when its events are durable.
 
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use tokio::sync::{mpsc, oneshot};
+use tokio::sync::mpsc;
 
 use crate::clock::LastTime;
-use crate::days::DayCell;
+use crate::day_cell::DayCell;
 use crate::error::Error;
-use crate::keys::Busy;
 use crate::metrics::Metrics;
 use crate::store::{AppendId, NewEvent, Store, StoredAnswer, StoredEvent};
 
@@ -20,14 +18,17 @@ const MOST_TOGETHER: usize = 1_024;
 /// For so long a failure counts as one of a moment ago.
 const A_MOMENT: Duration = Duration::from_secs(5);
 
+/// What is done with events once it is known whether they are stored. Events of a day come here in
+/// their order.
+pub(crate) type Done = Box<dyn FnOnce(Result<(), Error>, Vec<StoredEvent>) + Send + Sync>;
+
 /// Events of a day that wait to be stored.
 pub(crate) struct Append {
     pub(crate) id: AppendId,
     pub(crate) day: Arc<DayCell>,
     pub(crate) events: Vec<StoredEvent>,
     pub(crate) answer: Option<StoredAnswer>,
-    pub(crate) _busy: Option<Arc<Busy>>,
-    pub(crate) done: oneshot::Sender<Result<(), Error>>,
+    pub(crate) done: Done,
 }
 
 impl Append {
@@ -64,7 +65,7 @@ impl Committer {
     pub(crate) fn push(&self, append: Append) {
         if let Err(refused) = self.queue.send(append) {
             let stopped = Error::Store { cause: "the service is stopping".to_owned() };
-            let _ = refused.0.done.send(Err(stopped));
+            (refused.0.done)(Err(stopped), refused.0.events);
         }
     }
 }
@@ -96,7 +97,7 @@ async fn write(store: &Store, metrics: &Metrics, failed: &LastTime, batch: &mut 
             Some(Err(Error::StoreHangs { s })) => Err(Error::StoreHangs { s: *s }),
             // An earlier event of the day could not be stored. The day is read again before this
             // one is tried again.
-            _ if append.day.has_failed.load(Ordering::Acquire) => Err(Error::Conflict),
+            _ if append.day.has_failed() => Err(Error::Conflict),
             _ => store_alone(store, &append).await,
         };
         if let Err(Error::StoreHangs { s }) = outcome {
@@ -105,7 +106,6 @@ async fn write(store: &Store, metrics: &Metrics, failed: &LastTime, batch: &mut 
         match &outcome {
             Ok(()) => {
                 metrics.events.inc_by(append.events.len() as u64);
-                append.day.publish(append.events);
             }
             Err(error) => {
                 let day = append.day.id();
@@ -117,14 +117,12 @@ async fn write(store: &Store, metrics: &Metrics, failed: &LastTime, batch: &mut 
                     }
                     _ => tracing::error!(day, %error, "events could not be stored"),
                 }
-                append.day.fail();
                 if matches!(error, Error::Store { .. } | Error::StoreHangs { .. }) {
                     failed.is_now();
                 }
             }
         }
-        // The client may have gone.
-        let _ = append.done.send(outcome);
+        (append.done)(outcome, append.events);
     }
 }
 
@@ -143,7 +141,7 @@ async fn store_alone(store: &Store, append: &Append) -> Result<(), Error> {
 }
 
 async fn store_together(store: &Store, batch: &[Append]) -> Result<(), Error> {
-    if batch.iter().any(|append| append.day.has_failed.load(Ordering::Acquire)) {
+    if batch.iter().any(|append| append.day.has_failed()) {
         return Err(Error::Store { cause: "a day has failed".to_owned() });
     }
     let events: Vec<NewEvent<'_>> = batch.iter().flat_map(Append::new_events).collect();

@@ -5,65 +5,30 @@ mod reading;
 mod shared;
 
 use std::collections::HashMap;
-use std::fmt;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use axum::body::Bytes;
 use serde::Serialize;
-use tokio::sync::{OnceCell, broadcast, oneshot, watch};
+use tokio::sync::{OnceCell, oneshot};
 use vertifleet_core::Scenario;
 
 pub(crate) use self::reading::replay;
-use crate::calendar::Calendar;
 use crate::clock::now_ms;
 use crate::committer::{Append, Committer};
-use crate::decide::Deciders;
+use crate::day_cell::DayCell;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::event::Event;
-use crate::keys::Busy;
+use crate::keys::{Busy, Idempotency};
 use crate::mark::EventMark;
 use crate::metrics::Metrics;
 use crate::store::{AppendId, Store, StoredAnswer, StoredDay, StoredEvent};
 use crate::turns::Turns;
 
-/// Events that a slow reader may be behind before it has to read from the store.
-const KEPT_FOR_READERS: usize = 1_024;
 /// Beyond so many days, days that are not in use leave memory. A day of `paper` takes half a
 /// megabyte.
 const MOST_IN_MEMORY: usize = 1_000;
 /// A write is tried so often when other services write to the same day.
 const TRIES: u32 = 5;
-
-/// A day in memory.
-pub(crate) struct DayCell {
-    stored: StoredDay,
-    calendar: Option<Calendar>,
-    state: Mutex<DispatchDay>,
-    /// The number of the latest event that is stored.
-    durable: watch::Sender<u64>,
-    readers: broadcast::Sender<Arc<Published>>,
-    /// Whether an event could not be stored, so that memory is ahead of the store and must be
-    /// thrown away.
-    pub(crate) has_failed: AtomicBool,
-    pub(crate) deciders: Deciders,
-}
-
-impl fmt::Debug for DayCell {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("DayCell").field("stored", &self.stored).finish_non_exhaustive()
-    }
-}
-
-/// An event that readers are told.
-#[derive(Debug)]
-pub(crate) struct Published {
-    /// The event.
-    pub(crate) event: StoredEvent,
-    /// As a message of the stream, made once for all readers.
-    pub(crate) shown: OnceLock<Bytes>,
-}
 
 /// What a write led to.
 #[derive(Debug, Clone)]
@@ -87,15 +52,6 @@ pub(crate) struct Writer {
     pub(crate) busy: Option<Arc<Busy>>,
 }
 
-/// A request that is carried out once, however often it comes.
-#[derive(Debug, Clone)]
-pub(crate) struct Idempotency {
-    /// The key.
-    pub(crate) key: String,
-    /// The request, shortened to a sum.
-    pub(crate) request: String,
-}
-
 impl Writer {
     /// Checks that the day is where the writer expects it to be.
     ///
@@ -105,109 +61,6 @@ impl Writer {
         match self.if_match {
             Some(expected) if expected != found => Err(Error::Moved { expected, found }),
             _ => Ok(()),
-        }
-    }
-}
-
-impl Idempotency {
-    /// The answer, to be given again.
-    pub(crate) fn answered_with(self, answer: &impl Serialize) -> StoredAnswer {
-        let answer = serde_json::to_string(answer).expect("plain data can be written");
-        StoredAnswer { key: self.key, request: self.request, answer }
-    }
-}
-
-impl DayCell {
-    fn new(stored: StoredDay, state: DispatchDay) -> Result<Self, Error> {
-        let StoredDay { date, time_zone, .. } = &stored;
-        let is_dated = !date.is_empty();
-        let calendar = is_dated.then(|| Calendar::new(date, time_zone)).transpose()?;
-        let durable = watch::Sender::new(state.seq());
-        let readers = broadcast::Sender::new(KEPT_FOR_READERS);
-        let deciders = Deciders::default();
-        let has_failed = AtomicBool::new(false);
-        let state = Mutex::new(state);
-        Ok(Self { stored, calendar, state, durable, readers, has_failed, deciders })
-    }
-
-    /// The id of the day.
-    pub(crate) fn id(&self) -> &str {
-        &self.stored.id
-    }
-
-    /// The day as it is stored.
-    pub(crate) fn stored(&self) -> &StoredDay {
-        &self.stored
-    }
-
-    /// Its calendar, if it has a date.
-    pub(crate) fn calendar(&self) -> Option<&Calendar> {
-        self.calendar.as_ref()
-    }
-
-    /// The day after its events so far. Some of them may not be stored yet;
-    /// [`stored_up_to`](Self::stored_up_to) waits for them.
-    pub(crate) fn state(&self) -> MutexGuard<'_, DispatchDay> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Checks that the event after which a reader continues has happened.
-    ///
-    /// # Errors
-    /// Returns [`Error::NoSuchEvent`] if it has not: the day may have been put back from a copy.
-    pub(crate) fn check_begun(&self, after: u64) -> Result<(), Error> {
-        let last = self.state().seq();
-        if after <= last { Ok(()) } else { Err(Error::NoSuchEvent { asked: after, last }) }
-    }
-
-    /// Whether memory can no longer be trusted: an event could not be stored, or a panic happened
-    /// over the state.
-    pub(crate) fn is_spoilt(&self) -> bool {
-        self.has_failed.load(Ordering::Acquire) || self.state.is_poisoned()
-    }
-
-    /// The events as they are stored from now on.
-    pub(crate) fn subscribe(&self) -> broadcast::Receiver<Arc<Published>> {
-        self.readers.subscribe()
-    }
-
-    /// Makes events public that are stored.
-    pub(crate) fn publish(&self, events: Vec<StoredEvent>) {
-        if let Some(last) = events.last() {
-            let seq = last.seq;
-            self.durable.send_if_modified(|stored| {
-                let is_later = seq > *stored;
-                *stored = seq.max(*stored);
-                is_later
-            });
-        }
-        for event in events {
-            // There may be no reader.
-            let _ = self.readers.send(Arc::new(Published { event, shown: OnceLock::new() }));
-        }
-    }
-
-    /// Has the day read again by all who use it: an event could not be stored, or the day has
-    /// changed in the store.
-    pub(crate) fn fail(&self) {
-        self.has_failed.store(true, Ordering::Release);
-        // Those who wait for an event need not wait any longer.
-        self.durable.send_modify(|_| ());
-    }
-
-    /// Waits until an event is stored, so that nothing is shown that a crash could take back.
-    ///
-    /// # Errors
-    /// Returns [`Error::Conflict`] if the day has to be read again, and [`Error::Store`] if the
-    /// event cannot be stored.
-    pub(crate) async fn stored_up_to(&self, seq: u64) -> Result<(), Error> {
-        let mut durable = self.durable.subscribe();
-        let has_failed = || self.has_failed.load(Ordering::Acquire);
-        let is_stored = durable.wait_for(|&stored| stored >= seq || has_failed());
-        match tokio::time::timeout(std::time::Duration::from_secs(10), is_stored).await {
-            Ok(Ok(stored)) if *stored >= seq => Ok(()),
-            Ok(Ok(_)) => Err(Error::Conflict),
-            _ => Err(Error::Store { cause: "events are not stored in time".to_owned() }),
         }
     }
 }
@@ -394,6 +247,8 @@ impl Days {
         }
     }
 
+    /// Applies events to a day, appends them to its log, and publishes them: the whole way of an
+    /// event.
     async fn append_once<T: Serialize>(
         &self,
         day: &Arc<DayCell>,
@@ -407,18 +262,32 @@ impl Days {
         let id = AppendId::draw()?;
         let (done, outcome) = oneshot::channel();
         let answer = {
+            // Held until they are in the queue, so that a day's events are stored in their order.
             let mut state = day.state();
             writer.check(state.seq())?;
             if state.seq() + events.len() as u64 > self.most_events {
                 return Err(Error::TooMuch { what: "events on a day", most: self.most_events });
             }
-            let stored = take_all(&mut state, events, &writer.actor)?;
-            let appended = Appended { seq: state.seq(), events: stored };
+            // Applied in memory, so that the next events can be checked at once.
+            let events = take_all(&mut state, events, &writer.actor)?;
+            let appended = Appended { seq: state.seq(), events };
             let answer = answer(&appended);
             let Writer { idempotency, busy, .. } = writer;
             let kept = idempotency.map(|asked| asked.answered_with(&answer));
-            let (day, events) = (Arc::clone(day), appended.events);
-            self.committer.push(Append { id, day, events, answer: kept, _busy: busy, done });
+            // Published once they are stored, also if the client has gone by then: a crash must
+            // not take back an event that anyone has heard of.
+            let cell = Arc::clone(day);
+            let publish = move |outcome: Result<(), Error>, events| {
+                match outcome {
+                    Ok(()) => cell.publish(events),
+                    Err(_) => cell.fail(),
+                }
+                drop(busy);
+                let _ = done.send(outcome);
+            };
+            let (day, done) = (Arc::clone(day), Box::new(publish));
+            let append = Append { id, day, events: appended.events, answer: kept, done };
+            self.committer.push(append);
             answer
         };
         let stopped = || Error::Store { cause: "the service is stopping".to_owned() };

@@ -11,7 +11,7 @@ use vertifleet_core::{Scenario, Time, VertiportIx};
 use vertifleet_policy::{DayPrices, Policy};
 use vertifleet_sim::{Decision, Refusal, Simulation, View};
 
-use crate::days::DayCell;
+use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::moment::Moment;
 use crate::policies::Policies;
@@ -180,23 +180,19 @@ impl Decider {
     /// Returns [`Error::UnknownId`] if there is no such aircraft, and [`Error::ReportError`] if it cannot decide now.
     pub(crate) fn propose(
         &mut self,
-        cell: &DayCell,
+        mut state: MutexGuard<'_, DispatchDay>,
         aircraft: &str,
         time: Option<Time>,
         policy: &str,
         busy: Option<&Renewals>,
     ) -> Result<Proposal, Error> {
         let begun = Instant::now();
-        let (decision, seq, refusals) = {
-            let mut state = cell.state();
-            let aircraft = state.ids().aircraft(aircraft)?;
-            let seq = state.seq();
-            let live = state.live_mut();
-            let decision = live.decision(aircraft, time.unwrap_or_default())?;
-            let view = live.view_at(&decision, &mut self.room);
-            let refusals = refusals(view, &decision);
-            (decision, seq, refusals)
-        };
+        let (seq, ix) = (state.seq(), state.ids().aircraft(aircraft)?);
+        let live = state.live_mut();
+        let decision = live.decision(ix, time.unwrap_or_default())?;
+        let refusals = refusals(live.view_at(&decision, &mut self.room), &decision);
+        // The policy thinks about a copy, so that events go on meanwhile.
+        drop(state);
         let day = self.room.as_ref().expect("the view was written into it");
         self.renewing.before(&mut *self.policy, day, &decision, busy);
         let (view, scenario) = (day.view(), Arc::clone(day.scenario()));

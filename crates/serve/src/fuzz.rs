@@ -16,12 +16,13 @@ use hyper_util::service::TowerToHyperService;
 use serde_json::{Value, json};
 use tokio::runtime::Runtime;
 
-use crate::access::{Role, Tokens};
 use crate::api::router;
 use crate::console::Console;
+use crate::keep::Tokens;
 use crate::limits::Limits;
 use crate::service::Service;
 use crate::store::{Location, Store};
+use crate::tokens::Role;
 
 /// A small day of three vertiports, `A`, `B` and `C`, and three aircraft, `A01`, `A02` and `A03`.
 const SCENARIO: &str = include_str!("../../core/tests/data/small.json");

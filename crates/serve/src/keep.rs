@@ -1,6 +1,8 @@
 //! Keeping the data: every event checked, copies made and put back, days written out for other
 //! programs.
 
+mod tokens;
+
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,6 +12,7 @@ use serde_json::value::RawValue;
 use tokio::runtime::Runtime;
 use vertifleet_core::Scenario;
 
+pub use self::tokens::Tokens;
 use crate::days::replay;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;

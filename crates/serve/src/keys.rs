@@ -8,7 +8,10 @@ use std::collections::HashSet;
 use std::hash::{BuildHasher as _, RandomState};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use serde::Serialize;
+
 use crate::error::Error;
+use crate::store::StoredAnswer;
 
 /// So many hashes take some 50 MB.
 const MOST: usize = 4_000_000;
@@ -33,6 +36,23 @@ struct State {
 pub(crate) struct Busy {
     keys: Arc<Keys>,
     key: String,
+}
+
+/// A request that is carried out once, however often it comes.
+#[derive(Debug, Clone)]
+pub(crate) struct Idempotency {
+    /// The key.
+    pub(crate) key: String,
+    /// The request, shortened to a sum.
+    pub(crate) request: String,
+}
+
+impl Idempotency {
+    /// The answer, to be given again.
+    pub(crate) fn answered_with(self, answer: &impl Serialize) -> StoredAnswer {
+        let answer = serde_json::to_string(answer).expect("plain data can be written");
+        StoredAnswer { key: self.key, request: self.request, answer }
+    }
 }
 
 impl Drop for Busy {

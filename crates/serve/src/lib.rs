@@ -13,6 +13,7 @@ mod clock;
 mod committer;
 mod connections;
 mod console;
+mod day_cell;
 mod days;
 mod decide;
 mod dispatch_day;
@@ -39,15 +40,16 @@ mod service;
 mod spans;
 mod store;
 mod studies;
+mod tokens;
 mod turns;
 
-pub use access::{Role, StoredToken, Tokens};
 pub use api::openapi;
 pub use error::Error;
 #[cfg(any(test, feature = "fuzz"))]
 pub use fuzz::AnyRequest;
-pub use keep::{Contents, DayCheck, Keeper, restore};
+pub use keep::{Contents, DayCheck, Keeper, Tokens, restore};
 pub use limits::Limits;
 pub use operate::{Operation, OperationReport, operate};
 pub use server::{Protection, Settings, serve};
 pub use store::{AuditRecord, Location};
+pub use tokens::{Role, StoredToken};

@@ -1,12 +1,5 @@
 //! What the service measures about itself, for Prometheus.
 
-use std::sync::Arc;
-use std::time::Instant;
-
-use axum::extract::{MatchedPath, Request, State};
-use axum::http::Method;
-use axum::middleware::Next;
-use axum::response::Response;
 use prometheus_client::encoding::EncodeLabelSet;
 use prometheus_client::encoding::text::encode;
 use prometheus_client::metrics::counter::Counter;
@@ -15,10 +8,8 @@ use prometheus_client::metrics::gauge::Gauge;
 use prometheus_client::metrics::histogram::{Histogram, exponential_buckets};
 use prometheus_client::metrics::info::Info;
 use prometheus_client::registry::Registry;
-use vertifleet_core::Code;
 
 use crate::clock::now_ms;
-use crate::service::Service;
 
 /// A path with a method, as it stands in the description of the API.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
@@ -100,6 +91,14 @@ impl Metrics {
         self
     }
 
+    /// Counts a request that was answered. `path` is the one of the description.
+    pub(crate) fn answered(&self, method: &str, path: &str, status: u16, seconds: f64) {
+        let (method, path) = (method.to_owned(), path.to_owned());
+        let of_path = Path { method: method.clone(), path: path.clone() };
+        self.request_seconds.get_or_create(&of_path).observe(seconds);
+        self.requests.get_or_create(&Answered { method, path, status }).inc();
+    }
+
     /// Counts a decision.
     pub(crate) fn decided(&self, policy: &str, seconds: f64) {
         let policy = ByPolicy { policy: policy.to_owned() };
@@ -112,42 +111,4 @@ impl Metrics {
         encode(&mut text, &self.registry).expect("memory takes everything");
         text
     }
-}
-
-/// Measures a request. This is the one place where requests are counted, logged, and told to a
-/// collector.
-pub(crate) async fn measure(
-    State(service): State<Arc<Service>>,
-    request: Request,
-    next: Next,
-) -> Response {
-    let known = [Method::GET, Method::POST, Method::PUT, Method::DELETE, Method::HEAD];
-    // A client that invents methods must not create series.
-    let method = request.method();
-    let is_known = known.contains(method);
-    let method = if is_known { method.as_str() } else { "other" }.to_owned();
-    // Paths as they are described, since each id would be a series of its own.
-    let path = request.extensions().get::<MatchedPath>().cloned();
-    let path = path.as_ref().map(MatchedPath::as_str);
-    let span = service.spans.as_ref().map(|spans| {
-        let method = if is_known { &method } else { "_OTHER" };
-        spans.begin(method, path, request.headers())
-    });
-    let path = path.unwrap_or("unknown").to_owned();
-    let begun = Instant::now();
-    let answer = next.run(request).await;
-    let took = begun.elapsed();
-    let metrics = service.days.metrics();
-    let of_path = Path { method: method.clone(), path: path.clone() };
-    metrics.request_seconds.get_or_create(&of_path).observe(took.as_secs_f64());
-    let answered = Answered { method, path, status: answer.status().as_u16() };
-    metrics.requests.get_or_create(&answered).inc();
-    let Answered { method, path, status } = answered;
-    let code = answer.extensions().get::<Code>().map(Code::to_string);
-    let trace = span.as_ref().map(|span| span.trace().to_string());
-    tracing::info!(method, path, status, code, trace, took_us = took.as_micros(), "a request");
-    if let Some(span) = span {
-        span.end(answer.status(), code);
-    }
-    answer
 }

@@ -6,17 +6,18 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
-use utoipa::ToSchema;
+use utoipa::openapi::schema::{ObjectBuilder, Type};
+use utoipa::openapi::{RefOr, Schema};
+use utoipa::{PartialSchema, ToSchema};
 use vertifleet_core::{Aircraft, Scenario, Stop, TypeIx, VertiportIx};
 use vertifleet_optimize::{Step, upper_bound_of_rest};
 use vertifleet_sim::live::{LiveDay, RemainingDay};
-use vertifleet_sim::{DayTotals, TraceRow};
+use vertifleet_sim::{DayNumber, DayTotals, TraceRow};
 use vertifleet_study::ResolvedPolicy;
 
-use crate::api::Totals;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
-use crate::event::Ids;
+use crate::event::{Event, Ids};
 use crate::moment::Moment;
 
 /// How a day is expected to go on if a policy takes every decision from now on.
@@ -43,6 +44,31 @@ pub(crate) struct Outlook {
     /// Every flight and hold of the day, in the order of decisions: those that were taken, then those that are expected.
     pub(crate) legs: Vec<Leg>,
 }
+
+/// The numbers of a day in the description: dollars, kilowatt-hours, shares and counts, as their names say.
+pub(crate) struct Totals;
+
+impl PartialSchema for Totals {
+    fn schema() -> RefOr<Schema> {
+        let object = ObjectBuilder::new().schema_type(Type::Object).description(Some(
+            "The numbers of a day: dollars, kilowatt-hours, shares and counts, as their names say. \
+             Passengers who have not been carried yet count as spilled.",
+        ));
+        let numbers = DayTotals::default().numbers();
+        numbers
+            .into_iter()
+            .fold(object, |object, (name, number)| {
+                let kind = match number {
+                    DayNumber::Amount(_) => Type::Number,
+                    DayNumber::Count(_) => Type::Integer,
+                };
+                object.property(name, ObjectBuilder::new().schema_type(kind)).required(name)
+            })
+            .into()
+    }
+}
+
+impl ToSchema for Totals {}
 
 /// A flight or a hold.
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -74,7 +100,7 @@ pub(crate) struct WhatIf {
     /// Events that might happen now, in their order.
     #[serde(default)]
     #[schema(max_items = 1_000)]
-    pub(crate) events: Vec<crate::event::Event>,
+    pub(crate) events: Vec<Event>,
     /// The policy that would decide; without it, the day's.
     pub(crate) policy: Option<String>,
     /// Stands (or chargers where they are counted apart) that vertiports would have had since the morning.

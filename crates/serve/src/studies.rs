@@ -26,8 +26,8 @@ pub(crate) use self::progress::StudyProgress;
 use self::progress::{Progress, Watched};
 pub(crate) use self::result::StudyResult;
 use crate::clock::now_ms;
-use crate::days::Idempotency;
 use crate::error::Error;
+use crate::keys::Idempotency;
 use crate::problem::Problem;
 
 /// Studies that wait for their turn.

@@ -3,12 +3,9 @@
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
-use utoipa::openapi::schema::{ObjectBuilder, Type};
-use utoipa::openapi::{RefOr, Schema};
-use utoipa::{IntoParams, PartialSchema, ToSchema};
-use vertifleet_sim::{DayNumber, DayTotals};
+use utoipa::{IntoParams, ToSchema};
 
-use crate::days::DayCell;
+use crate::day_cell::DayCell;
 use crate::error::Error;
 use crate::moment::by_calendar;
 
@@ -64,31 +61,6 @@ pub(super) struct Written {
     #[serde(default)]
     pub(super) times: Times,
 }
-
-/// The numbers of a day in the description: dollars, kilowatt-hours, shares and counts, as their names say.
-pub(crate) struct Totals;
-
-impl PartialSchema for Totals {
-    fn schema() -> RefOr<Schema> {
-        let object = ObjectBuilder::new().schema_type(Type::Object).description(Some(
-            "The numbers of a day: dollars, kilowatt-hours, shares and counts, as their names say. \
-             Passengers who have not been carried yet count as spilled.",
-        ));
-        let numbers = DayTotals::default().numbers();
-        numbers
-            .into_iter()
-            .fold(object, |object, (name, number)| {
-                let kind = match number {
-                    DayNumber::Amount(_) => Type::Number,
-                    DayNumber::Count(_) => Type::Integer,
-                };
-                object.property(name, ObjectBuilder::new().schema_type(kind)).required(name)
-            })
-            .into()
-    }
-}
-
-impl ToSchema for Totals {}
 
 /// An answer in JSON.
 pub(super) fn json(status: StatusCode, answer: &impl Serialize) -> Response {

@@ -11,16 +11,19 @@ use vertifleet_core::VertiportIx;
 use vertifleet_sim::DayTotals;
 use vertifleet_sim::live::{LiveDay, Phase};
 
-use super::answer::{Times, again, at_event, json, written};
-use super::extract::{EventNumber, Named, PageSize, Sender, Upload, Validated};
+use super::answer::{Times, at_event, json, written};
+use super::extract::{EventNumber, Named, PageSize, UPLOAD, Validated, parse};
 use super::new_day::NewDay;
-use crate::api::Totals;
+use super::write::Idempotent;
+use crate::access::Actor;
 use crate::clock::now_ms;
-use crate::days::DayCell;
+use crate::day_cell::DayCell;
+use crate::days::Writer;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::moment::Moment;
-use crate::service::{Service, Write, parse};
+use crate::outlook::Totals;
+use crate::service::Service;
 use crate::store::StoredDay;
 
 /// The policy that decides on a day if none is named.
@@ -248,20 +251,15 @@ async fn progress_of(service: &Service, id: &str) -> Result<Option<DayProgress>,
 )]
 pub(super) async fn create(
     State(service): State<Arc<Service>>,
-    sender: Sender,
-    Upload(body): Upload,
+    Idempotent { writer, body }: Idempotent<UPLOAD>,
 ) -> Result<Response, Error> {
-    let writer = match service.write(&sender, &body).await? {
-        Write::Done(answer) => return Ok(again(answer)),
-        Write::New(writer) => writer,
-    };
     let made_by = Arc::clone(&service);
     let read = async move {
         let asked: NewDay = parse(&body)?;
         let (scenario, zone) = asked.scenario(&made_by).await?;
         Ok((asked, scenario, zone))
     };
-    let (asked, scenario, zone) = service.turns.readings.run(&sender.actor, read).await?;
+    let (asked, scenario, zone) = service.turns.readings.run(&writer.actor, read).await?;
     let policy = asked.policy.clone().unwrap_or_else(|| DEFAULT_POLICY.to_owned());
     service.policies.resolve(&policy, &scenario).await?;
     let (date, time_zone) = asked.calendar(zone)?;
@@ -305,17 +303,17 @@ pub(super) async fn read(
     let day = service.days.get(&day).await?;
     let seq = day.state().seq();
     day.stored_up_to(seq).await?;
-    Ok(at_event(StatusCode::OK, seq, &DayInfo::of(day.stored(), Some(seq))))
+    Ok(at_event(StatusCode::OK, seq, &DayInfo::of(&day.stored, Some(seq))))
 }
 
 /// Closes a day to writes. It can still be read, and be opened again.
 #[utoipa::path(operation_id = "archive_day", post, path = "/v1/days/{day}/archive", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn archive(
     State(service): State<Arc<Service>>,
-    sender: Sender,
     Named(day): Named<String>,
+    writer: Writer,
 ) -> Result<StatusCode, Error> {
-    service.days.archive(&day, &sender.writer()?).await?;
+    service.days.archive(&day, &writer).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -323,10 +321,10 @@ pub(super) async fn archive(
 #[utoipa::path(operation_id = "unarchive_day", post, path = "/v1/days/{day}/unarchive", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn unarchive(
     State(service): State<Arc<Service>>,
-    sender: Sender,
     Named(day): Named<String>,
+    writer: Writer,
 ) -> Result<StatusCode, Error> {
-    service.days.unarchive(&day, &sender.writer()?).await?;
+    service.days.unarchive(&day, &writer).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -334,10 +332,10 @@ pub(super) async fn unarchive(
 #[utoipa::path(operation_id = "delete_day", delete, path = "/v1/days/{day}", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,
-    sender: Sender,
     Named(day): Named<String>,
+    writer: Writer,
 ) -> Result<StatusCode, Error> {
-    service.days.delete(&day, &sender.writer()?).await?;
+    service.days.delete(&day, &writer).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -360,15 +358,13 @@ pub(crate) struct At {
 pub(super) async fn state(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    sender: Sender,
+    Actor(actor): Actor,
     Validated(at): Validated<At>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let state = match at.seq {
         None => DayState::of(&mut day.state()),
-        Some(EventNumber(seq)) => {
-            DayState::of(&mut service.days.at(&sender.actor, &day, seq).await?)
-        }
+        Some(EventNumber(seq)) => DayState::of(&mut service.days.at(&actor, &day, seq).await?),
     };
     day.stored_up_to(state.seq).await?;
     at.times.of(&day, || Ok(at_event(StatusCode::OK, state.seq, &state)))

@@ -10,14 +10,17 @@ use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 use vertifleet_core::Stop;
 
-use super::answer::{Times, again, at_event};
-use super::extract::{Body, Named, Sender, Validated};
-use crate::days::{DayCell, Writer};
+use super::answer::{Times, at_event};
+use super::extract::{Named, Validated, parse};
+use super::write::Idempotent;
+use crate::access::Actor;
+use crate::day_cell::DayCell;
+use crate::days::{Appended, Writer};
 use crate::decide::Proposal;
 use crate::error::Error;
 use crate::event::{Event, EventKind, reason};
 use crate::moment::{Moment, by_calendar};
-use crate::service::{Service, Write, parse};
+use crate::service::Service;
 
 /// A policy is asked so often when events come in between.
 const TRIES: u32 = 5;
@@ -95,14 +98,14 @@ pub(crate) struct TakenDecision {
 pub(super) async fn propose(
     State(service): State<Arc<Service>>,
     Named((day, aircraft)): Named<(String, String)>,
-    sender: Sender,
+    Actor(actor): Actor,
     Validated(asked): Validated<DecisionQuery>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let DecisionQuery { policy, time, deadline_ms, times } = asked;
     let time = time.map(|text| by_calendar(day.calendar(), || Moment::parse(&text))).transpose();
     let time = time.map_err(|rule| Error::BadRequest { rule })?;
-    let question = Question { actor: sender.actor, aircraft, policy, time, deadline_ms };
+    let question = Question { actor, aircraft, policy, time, deadline_ms };
     let proposal = proposed(&service, &day, question).await?;
     day.stored_up_to(proposal.seq).await?;
     times.of(&day, || Ok(at_event(StatusCode::OK, proposal.seq, &proposal)))
@@ -120,13 +123,8 @@ pub(super) async fn propose(
 pub(super) async fn decide(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    sender: Sender,
-    Body(body): Body,
+    Idempotent { writer, body }: Idempotent,
 ) -> Result<Response, Error> {
-    let writer = match service.write(&sender, &body).await? {
-        Write::Done(answer) => return Ok(again(answer)),
-        Write::New(writer) => writer,
-    };
     let day = service.days.get(&day).await?;
     let asked: NewDecision = by_calendar(day.calendar(), || parse(&body))?;
     // Skip the evaluation if the day has advanced.
@@ -146,7 +144,7 @@ async fn by_hand(
     NewDecision { aircraft, reason, policy, time, deadline_ms, .. }: NewDecision,
     to: String,
 ) -> Result<TakenDecision, Error> {
-    let policy = policy.unwrap_or_else(|| day.stored().policy.clone());
+    let policy = policy.unwrap_or_else(|| day.stored.policy.clone());
     // For the record only, so it must not hold a person up, and whatever goes wrong shows when the
     // event is taken.
     let deadline = deadline_ms.map_or(OVERRULED_TIMEOUT, |ms| Duration::from_millis(ms.into()));
@@ -202,7 +200,7 @@ async fn take(
 ) -> Result<TakenDecision, Error> {
     let EventKind::Decided { to, .. } = &event.what else { unreachable!("it is a decision") };
     let to = to.clone();
-    let answer = |appended: &crate::days::Appended| TakenDecision {
+    let answer = |appended: &Appended| TakenDecision {
         seq: appended.seq,
         to: to.clone(),
         proposal: proposal.clone(),
@@ -217,7 +215,7 @@ async fn proposed(
     Question { actor, aircraft, policy, time, deadline_ms }: Question,
 ) -> Result<Proposal, Error> {
     let whom = (actor.as_str(), aircraft.as_str());
-    let policy = policy.unwrap_or_else(|| day.stored().policy.clone());
+    let policy = policy.unwrap_or_else(|| day.stored.policy.clone());
     let answer = ask(service, day, whom, policy.clone(), time);
     let in_time = match deadline_ms {
         None => Some(answer.await?),
@@ -261,7 +259,7 @@ async fn ask(
     let (others, renewals) = (turns.clone(), Arc::clone(&service.renewals));
     let ask = move |_: &Stop| {
         let busy = renewals.if_busy(others.are_awaited());
-        decider.propose(&day, &aircraft, time.map(Moment::time), &policy, busy)
+        decider.propose(day.state(), &aircraft, time.map(Moment::time), &policy, busy)
     };
     turns.work(actor, ask).await
 }

@@ -9,13 +9,15 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
 
-use super::answer::{Times, again, at_event, json};
-use super::extract::{Body, EventNumber, Named, PageSize, Sender, Validated};
+use super::answer::{Times, at_event, json};
+use super::extract::{EventNumber, Named, PageSize, Validated, parse};
+use super::write::Idempotent;
+use crate::access::Actor;
 use crate::days::Appended;
 use crate::error::Error;
 use crate::event::{Event, EventKind};
 use crate::moment::by_calendar;
-use crate::service::{Service, Write, parse};
+use crate::service::Service;
 use crate::store::StoredEvent;
 
 /// The number of events that a request may bring.
@@ -183,13 +185,8 @@ pub(crate) struct Page {
 pub(super) async fn append(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    sender: Sender,
-    Body(body): Body,
+    Idempotent { writer, body }: Idempotent,
 ) -> Result<Response, Error> {
-    let writer = match service.write(&sender, &body).await? {
-        Write::Done(answer) => return Ok(again(answer)),
-        Write::New(writer) => writer,
-    };
     let day = service.days.get(&day).await?;
     let events = by_calendar(day.calendar(), || OneOrMore::parse(&body))?.events();
     check_who_decided(&events)?;
@@ -205,7 +202,7 @@ pub(super) async fn append(
 pub(super) async fn list(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    sender: Sender,
+    Actor(actor): Actor,
     Validated(Page { after: EventNumber(after), limit, times }): Validated<Page>,
 ) -> Result<Response, Error> {
     let PageSize(limit) = limit.unwrap_or(PageSize(1_000));
@@ -223,5 +220,5 @@ pub(super) async fn list(
     if limit <= SHORT_PAGE {
         return page.await;
     }
-    service.turns.readings.run(&sender.actor, page).await
+    service.turns.readings.run(&actor, page).await
 }

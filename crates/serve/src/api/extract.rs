@@ -6,20 +6,18 @@ use std::sync::Arc;
 use axum::body::{Bytes, HttpBody as _};
 use axum::extract::rejection::{PathRejection, QueryRejection};
 use axum::extract::{FromRequest, FromRequestParts, Path, Query, Request};
-use axum::http::HeaderMap;
 use axum::http::request::Parts;
 use bytes::BytesMut;
 use http_body_util::BodyExt as _;
 use serde::de::{self, DeserializeOwned};
 use serde::{Deserialize, Deserializer};
-use tokio::sync::Semaphore;
 use utoipa::openapi::schema::{KnownFormat, ObjectBuilder, SchemaFormat, Type};
 use utoipa::openapi::{RefOr, Schema};
 use utoipa::{PartialSchema, ToSchema};
 
 use crate::access::Actor;
 use crate::error::Error;
-use crate::service::{Service, in_words_of_json};
+use crate::service::Service;
 
 /// What stands after the question mark.
 pub(super) struct Validated<T>(pub(super) T);
@@ -99,73 +97,84 @@ impl<S: Send + Sync, T: DeserializeOwned + Send> FromRequestParts<S> for Named<T
     }
 }
 
-/// The sender of a request, and its headers.
-pub(crate) struct Sender {
-    /// The name of the token; empty without tokens.
-    pub(crate) actor: String,
-    /// The headers of the request.
-    pub(crate) headers: HeaderMap,
-    /// Its path.
-    pub(crate) path: String,
-}
-
-impl<S: Send + Sync> FromRequestParts<S> for Sender {
+impl<S: Send + Sync> FromRequestParts<S> for Actor {
     type Rejection = Infallible;
 
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Infallible> {
-        let Actor(actor) = parts.extensions.get().cloned().unwrap_or_default();
-        Ok(Self { actor, headers: parts.headers.clone(), path: parts.uri.path().to_owned() })
+        Ok(parts.extensions.get().cloned().unwrap_or_default())
     }
 }
 
 /// The longest body of most requests.
-const LONGEST_BODY: usize = 4 << 20;
+pub(super) const SHORT: usize = 4 << 20;
 /// The longest body of a request that brings a scenario, a network or weights.
-const LONGEST_UPLOAD: usize = 64 << 20;
+pub(super) const UPLOAD: usize = 64 << 20;
 
-/// The body.
-pub(super) struct Body(pub(super) Bytes);
+/// A body of at most `MOST` bytes. Few large ones are read at once.
+pub(super) struct Body<const MOST: usize = SHORT>(pub(super) Bytes);
 
-/// A body that may be large: a scenario, a network or weights. Few large ones are read at once.
-pub(super) struct Upload(pub(super) Bytes);
-
-impl<S: Send + Sync> FromRequest<S> for Body {
+impl<const MOST: usize> FromRequest<Arc<Service>> for Body<MOST> {
     type Rejection = Error;
 
-    async fn from_request(request: Request, _: &S) -> Result<Self, Error> {
-        read(request, LONGEST_BODY, None).await.map(Self)
-    }
-}
-
-impl FromRequest<Arc<Service>> for Upload {
-    type Rejection = Error;
-
+    /// Reads the body. Once it is longer than most bodies may be, it takes a turn until it is read.
     async fn from_request(request: Request, service: &Arc<Service>) -> Result<Self, Error> {
-        read(request, LONGEST_UPLOAD, Some(&service.uploads)).await.map(Self)
-    }
-}
-
-/// Reads a body of at most `most` bytes. Once it is longer than most bodies may be, it takes a turn until it is read.
-async fn read(request: Request, most: usize, turns: Option<&Semaphore>) -> Result<Bytes, Error> {
-    let too_long = || Error::TooMuch { what: "bytes in such a body", most: most as u64 };
-    let unreadable =
-        |error| Error::BadRequest { rule: format!("its body cannot be read: {error}") };
-    let mut body = request.into_body();
-    if body.size_hint().lower() > most as u64 {
-        return Err(too_long());
-    }
-    let (mut bytes, mut turn) = (BytesMut::new(), None);
-    while let Some(frame) = body.frame().await {
-        // A body may end with trailers, which mean nothing here.
-        let Ok(piece) = frame.map_err(unreadable)?.into_data() else { continue };
-        if bytes.len() + piece.len() > most {
+        let too_long = || Error::TooMuch { what: "bytes in such a body", most: MOST as u64 };
+        let unreadable =
+            |error| Error::BadRequest { rule: format!("its body cannot be read: {error}") };
+        let mut body = request.into_body();
+        if body.size_hint().lower() > MOST as u64 {
             return Err(too_long());
         }
-        bytes.extend_from_slice(&piece);
-        if let Some(turns) = turns.filter(|_| bytes.len() > LONGEST_BODY && turn.is_none()) {
-            turn = Some(turns.acquire().await.expect("it is never closed"));
+        let (mut bytes, mut turn) = (BytesMut::new(), None);
+        while let Some(frame) = body.frame().await {
+            // A body may end with trailers, which mean nothing here.
+            let Ok(piece) = frame.map_err(unreadable)?.into_data() else { continue };
+            if bytes.len() + piece.len() > MOST {
+                return Err(too_long());
+            }
+            bytes.extend_from_slice(&piece);
+            if bytes.len() > SHORT && turn.is_none() {
+                turn = Some(service.uploads.acquire().await.expect("it is never closed"));
+            }
         }
+        drop(turn);
+        Ok(Self(bytes.freeze()))
     }
-    drop(turn);
-    Ok(bytes.freeze())
+}
+
+/// The longest message about a body that cannot be read.
+const LONGEST_RULE: usize = 400;
+
+/// What is wrong with JSON, without the words of the language that this is written in.
+fn in_words_of_json(message: &str) -> String {
+    let mut text = message.replace(" field ", " member ");
+    for (name, most) in
+        [("u16", u64::from(u16::MAX)), ("u32", u64::from(u32::MAX)), ("u64", u64::MAX)]
+    {
+        text = text.replace(
+            &format!("expected {name}"),
+            &format!("expected a whole number from 0 to {most}"),
+        );
+    }
+    // The name of a type, and how many members it has.
+    if let Some((before, after)) = text.split_once("expected struct ") {
+        let rest = after.split_once(" at ").map_or("", |(_, place)| place);
+        let place = if rest.is_empty() { String::new() } else { format!(" at {rest}") };
+        text = format!("{before}expected an object{place}");
+    }
+    text
+}
+
+/// Reads the JSON of a request. No body at all is the empty object.
+pub(super) fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, Error> {
+    let body = if body.is_empty() { b"{}".as_slice() } else { body };
+    serde_json::from_slice(body).map_err(|error| {
+        // A message may quote what was sent, which may be long.
+        let text = in_words_of_json(&error.to_string());
+        let mut rule: String = text.chars().take(LONGEST_RULE).collect();
+        if rule.len() < text.len() {
+            rule.push_str("...");
+        }
+        Error::BadRequest { rule }
+    })
 }

@@ -5,27 +5,18 @@ use std::sync::Arc;
 use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::Response;
-use serde::{Deserialize, Serialize};
-use utoipa::{IntoParams, ToSchema};
+use serde::Serialize;
+use utoipa::ToSchema;
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::DayTotals;
 
-use super::answer::{Times, Totals, at_event};
+use super::answer::{Written, at_event};
 use super::extract::{Named, Validated};
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::moment::Moment;
+use crate::outlook::Totals;
 use crate::service::Service;
-
-/// How the account is written.
-#[derive(Debug, Deserialize, IntoParams)]
-#[into_params(parameter_in = Query)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct How {
-    /// How times are written in the answer.
-    #[serde(default)]
-    times: Times,
-}
 
 /// What a day has earned and cost so far.
 #[derive(Debug, Serialize, ToSchema)]
@@ -69,16 +60,16 @@ pub(crate) struct Entry {
 }
 
 /// The account of a day so far, flight by flight.
-#[utoipa::path(operation_id = "day_ledger", get, path = "/v1/days/{day}/ledger", tag = "days", params(("day" = String, Path), How), responses((status = 200, body = Ledger)))]
+#[utoipa::path(operation_id = "day_ledger", get, path = "/v1/days/{day}/ledger", tag = "days", params(("day" = String, Path), Written), responses((status = 200, body = Ledger)))]
 pub(super) async fn ledger(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Validated(how): Validated<How>,
+    Validated(Written { times }): Validated<Written>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let ledger = Ledger::of(&mut day.state());
     day.stored_up_to(ledger.seq).await?;
-    how.times.of(&day, || Ok(at_event(StatusCode::OK, ledger.seq, &ledger)))
+    times.of(&day, || Ok(at_event(StatusCode::OK, ledger.seq, &ledger)))
 }
 
 impl Ledger {

@@ -10,11 +10,12 @@ use utoipa::ToSchema;
 use vertifleet_core::Stop;
 
 use super::answer::json;
-use super::extract::{Named, Sender, Upload};
+use super::extract::{Body, Named, UPLOAD, parse};
+use crate::access::Actor;
 use crate::clock::now_ms;
 use crate::error::Error;
 use crate::networks::{self, NetworkInfo};
-use crate::service::{Service, parse};
+use crate::service::Service;
 
 /// A network that is uploaded.
 #[derive(Debug, Deserialize, ToSchema)]
@@ -54,16 +55,16 @@ pub(super) async fn read(
 pub(super) async fn put(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
-    sender: Sender,
-    Upload(body): Upload,
+    Actor(actor): Actor,
+    Body(body): Body<UPLOAD>,
 ) -> Result<Response, Error> {
     let (store, named) = (service.days.store().clone(), name.clone());
     let put = async move {
         let NewNetwork { toml } = parse(&body)?;
         networks::put(&store, &named, toml, now_ms()).await
     };
-    let info = service.turns.readings.run(&sender.actor, put).await?;
-    service.days.store().record(&sender.actor, "network uploaded", &name, now_ms()).await?;
+    let info = service.turns.readings.run(&actor, put).await?;
+    service.days.store().record(&actor, "network uploaded", &name, now_ms()).await?;
     Ok(json(StatusCode::OK, &info))
 }
 
@@ -72,12 +73,12 @@ pub(super) async fn put(
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
-    sender: Sender,
+    Actor(actor): Actor,
 ) -> Result<StatusCode, Error> {
     if !service.days.store().delete_network(&name).await? {
         return Err(Error::not_found("uploaded network", &name));
     }
-    service.days.store().record(&sender.actor, "network deleted", &name, now_ms()).await?;
+    service.days.store().record(&actor, "network deleted", &name, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -85,12 +86,12 @@ pub(super) async fn delete(
 #[utoipa::path(operation_id = "validate_network", post, path = "/v1/networks/validate", tag = "networks", request_body = NewNetwork, responses((status = 200, body = NetworkInfo)))]
 pub(super) async fn validate(
     State(service): State<Arc<Service>>,
-    sender: Sender,
-    Upload(body): Upload,
+    Actor(actor): Actor,
+    Body(body): Body<UPLOAD>,
 ) -> Result<Response, Error> {
     let validate = move |_: &Stop| {
         let NewNetwork { toml } = parse(&body)?;
         Ok(json(StatusCode::OK, &NetworkInfo::of(&networks::read(&toml)?, false)))
     };
-    service.turns.readings.work(&sender.actor, validate).await
+    service.turns.readings.work(&actor, validate).await
 }

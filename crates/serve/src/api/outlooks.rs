@@ -13,12 +13,13 @@ use vertifleet_core::Stop;
 use super::answer::{Times, Written, at_event, json};
 use super::decisions::QUICK_POLICY;
 use super::events::MOST_EVENTS;
-use super::extract::{Body, EventNumber, Named, Sender, Validated};
-use crate::days::DayCell;
+use super::extract::{Body, EventNumber, Named, Validated, parse};
+use crate::access::Actor;
+use crate::day_cell::DayCell;
 use crate::error::Error;
 use crate::moment::by_calendar;
 use crate::outlook::{Comparison, NamedPolicy, Outlook, Patience, WhatIf};
-use crate::service::{Service, parse};
+use crate::service::Service;
 
 /// Which outlook is asked for.
 #[derive(Debug, Deserialize, IntoParams)]
@@ -44,20 +45,20 @@ pub(crate) struct By {
 pub(super) async fn outlook(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    sender: Sender,
+    Actor(actor): Actor,
     Validated(By { policy, seq, times }): Validated<By>,
 ) -> Result<Response, Error> {
     let until = patience(&service);
     let day = service.days.get(&day).await?;
     let mut state = match seq {
         None => day.state().clone(),
-        Some(EventNumber(seq)) => service.days.at(&sender.actor, &day, seq).await?,
+        Some(EventNumber(seq)) => service.days.at(&actor, &day, seq).await?,
     };
     let policy = named(&service, &day, policy).await?;
     let quick = named(&service, &day, Some(QUICK_POLICY.to_owned())).await?;
     let work =
         move |stop: &Stop| Outlook::in_time(&mut state, &policy, &quick, Patience { stop, until });
-    let outlook = service.turns.outlooks.work(&sender.actor, work).await?;
+    let outlook = service.turns.outlooks.work(&actor, work).await?;
     day.stored_up_to(outlook.seq).await?;
     times.of(&day, || Ok(at_event(StatusCode::OK, outlook.seq, &outlook)))
 }
@@ -73,7 +74,7 @@ async fn named(
     day: &DayCell,
     name: Option<String>,
 ) -> Result<NamedPolicy, Error> {
-    let name = name.unwrap_or_else(|| day.stored().policy.clone());
+    let name = name.unwrap_or_else(|| day.stored.policy.clone());
     let scenario = Arc::clone(day.state().live().scenario());
     let resolved = service.policies.resolve(&name, &scenario).await?;
     Ok(NamedPolicy { name, resolved })
@@ -89,7 +90,7 @@ async fn named(
 pub(super) async fn what_if(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    sender: Sender,
+    Actor(actor): Actor,
     Validated(Written { times }): Validated<Written>,
     Body(body): Body,
 ) -> Result<Response, Error> {
@@ -105,7 +106,7 @@ pub(super) async fn what_if(
     let otherwise = if asked.begins_otherwise() {
         let scenario = asked.scenario(state.live().scenario())?;
         let days = &service.days;
-        let again = days.replayed(&sender.actor, &day, Arc::new(scenario), state.seq()).await;
+        let again = days.replayed(&actor, &day, Arc::new(scenario), state.seq()).await;
         Some(again.map_err(Error::of_what_if)?)
     } else {
         None
@@ -117,6 +118,6 @@ pub(super) async fn what_if(
         let patience = Patience { stop, until };
         asked.compare(&mut state, otherwise, [&ours, &theirs, &quick], patience)
     };
-    let compared = service.turns.outlooks.work(&sender.actor, compare).await?;
+    let compared = service.turns.outlooks.work(&actor, compare).await?;
     times.of(&day, || Ok(json(StatusCode::OK, &compared)))
 }

@@ -10,7 +10,8 @@ use utoipa::ToSchema;
 use vertifleet_core::Stop;
 
 use super::answer::json;
-use super::extract::{Named, Sender, Upload};
+use super::extract::{Body, Named, UPLOAD};
+use crate::access::Actor;
 use crate::clock::now_ms;
 use crate::error::Error;
 use crate::policies::{self, PolicyInfo, WeightsInfo};
@@ -49,13 +50,13 @@ pub(super) async fn read(
 pub(super) async fn put(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
-    sender: Sender,
-    Upload(weights): Upload,
+    Actor(actor): Actor,
+    Body(weights): Body<UPLOAD>,
 ) -> Result<Response, Error> {
     let (keeper, named) = (Arc::clone(&service), name.clone());
     let put = async move { keeper.policies.put(&named, &weights, now_ms()).await };
-    let info = service.turns.readings.run(&sender.actor, put).await?;
-    service.days.store().record(&sender.actor, "policy uploaded", &name, now_ms()).await?;
+    let info = service.turns.readings.run(&actor, put).await?;
+    service.days.store().record(&actor, "policy uploaded", &name, now_ms()).await?;
     Ok(json(StatusCode::OK, &info))
 }
 
@@ -64,12 +65,12 @@ pub(super) async fn put(
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
-    sender: Sender,
+    Actor(actor): Actor,
 ) -> Result<StatusCode, Error> {
     if !service.days.store().delete_policy(&name).await? {
         return Err(Error::not_found("uploaded policy", &name));
     }
-    service.days.store().record(&sender.actor, "policy deleted", &name, now_ms()).await?;
+    service.days.store().record(&actor, "policy deleted", &name, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -77,9 +78,9 @@ pub(super) async fn delete(
 #[utoipa::path(operation_id = "validate_policy", post, path = "/v1/policies/validate", tag = "policies", request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = WeightsInfo)))]
 pub(super) async fn validate(
     State(service): State<Arc<Service>>,
-    sender: Sender,
-    Upload(weights): Upload,
+    Actor(actor): Actor,
+    Body(weights): Body<UPLOAD>,
 ) -> Result<Response, Error> {
     let validate = move |_: &Stop| Ok(json(StatusCode::OK, &policies::validate(&weights)?));
-    service.turns.readings.work(&sender.actor, validate).await
+    service.turns.readings.work(&actor, validate).await
 }

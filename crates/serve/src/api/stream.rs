@@ -21,12 +21,12 @@ use self::position::Position;
 use super::answer::Times;
 use super::events::TakenEvent;
 use super::extract::{EventNumber, Named, Validated};
-use crate::access::Role;
-use crate::days::{DayCell, Published};
+use crate::day_cell::{DayCell, Published};
 use crate::error::Error;
 use crate::mark::EventMark;
 use crate::service::Service;
 use crate::store::{Store, StoredEvent};
+use crate::tokens::Role;
 
 /// Events that are read from the store at once. They are written out between other requests, so they are few.
 const PAGE: u32 = 250;

@@ -12,11 +12,13 @@ use sha2::{Digest as _, Sha256};
 use utoipa::ToSchema;
 use vertifleet_report::REPLAY_FRAME_SCRIPT;
 
-use super::answer::{again, json};
+use super::answer::json;
 use super::days::new_id;
-use super::extract::{Named, Sender, Upload};
+use super::extract::{Named, UPLOAD, parse};
+use super::write::Idempotent;
+use crate::access::Actor;
 use crate::error::Error;
-use crate::service::{Service, Write, parse};
+use crate::service::Service;
 use crate::studies::{NewStudy, StudyInfo};
 
 /// All studies.
@@ -38,17 +40,14 @@ pub(super) async fn list(State(service): State<Arc<Service>>) -> Response {
 #[utoipa::path(operation_id = "make_study", post, path = "/v1/studies", tag = "studies", request_body = NewStudy, responses((status = 201, body = StudyInfo)))]
 pub(super) async fn create(
     State(service): State<Arc<Service>>,
-    sender: Sender,
-    Upload(body): Upload,
+    Idempotent { writer, body }: Idempotent<UPLOAD>,
 ) -> Result<Response, Error> {
-    let writer = match service.write(&sender, &body).await? {
-        Write::Done(answer) => return Ok(again(answer)),
-        Write::New(writer) => writer,
-    };
     if let Some(known) = service.studies.asked_before(writer.idempotency.as_ref())? {
         return Ok(json(StatusCode::CREATED, &known));
     }
-    let asked = parse::<NewStudy>(&body)?.check(&service, &sender.actor).await?;
+    let turn = (&service.turns.outlooks, writer.actor.as_str());
+    let asked = parse::<NewStudy>(&body)?;
+    let asked = asked.check(service.days.store(), &service.policies, turn).await?;
     let study = service.studies.add(new_id(), writer.idempotency, asked)?;
     Ok(json(StatusCode::CREATED, &study))
 }
@@ -67,10 +66,10 @@ pub(super) async fn read(
 pub(super) async fn report(
     State(service): State<Arc<Service>>,
     Named(study): Named<String>,
-    sender: Sender,
+    Actor(actor): Actor,
 ) -> Result<Response, Error> {
     let turns = service.turns.outlooks.clone();
-    let page = turns.work(&sender.actor, move |_| service.studies.page(&study)).await?;
+    let page = turns.work(&actor, move |_| service.studies.page(&study)).await?;
     let headers = [
         (header::CONTENT_TYPE, HeaderValue::from_static("text/html; charset=utf-8")),
         (header::CONTENT_SECURITY_POLICY, policy_of(&page)),
@@ -84,10 +83,10 @@ pub(super) async fn report(
 pub(super) async fn replay(
     State(service): State<Arc<Service>>,
     Named(study): Named<String>,
-    sender: Sender,
+    Actor(actor): Actor,
 ) -> Result<Response, Error> {
     let turns = service.turns.outlooks.clone();
-    let replay = turns.work(&sender.actor, move |_| service.studies.replay(&study)).await?;
+    let replay = turns.work(&actor, move |_| service.studies.replay(&study)).await?;
     Ok(([(header::CONTENT_TYPE, "application/json")], replay).into_response())
 }
 

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use tokio::sync::OnceCell;
 
-use super::{DayCell, Days, TRIES, Writer};
+use super::{Days, TRIES, Writer};
+use crate::day_cell::DayCell;
 use crate::error::Error;
 
 impl Days {

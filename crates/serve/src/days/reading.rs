@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use vertifleet_core::Scenario;
 
-use super::{DayCell, Days};
+use super::Days;
+use crate::day_cell::DayCell;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::store::Store;

@@ -2,13 +2,13 @@
 //! when a day is used, and while its stream is read.
 
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 use tokio::sync::OnceCell;
 use tokio::time::sleep;
 
-use super::{DayCell, Days};
+use super::Days;
+use crate::day_cell::DayCell;
 use crate::error::Error;
 use crate::store::{DayNotice, PAGE};
 
@@ -20,7 +20,7 @@ impl Days {
     /// the store does: an event of ours waits to be stored under a number that has been taken, or
     /// the day was archived, opened again, deleted or put back from a copy.
     pub(super) async fn catch_up(&self, day: &DayCell) -> Result<bool, Error> {
-        let stored = *day.durable.borrow();
+        let stored = day.stored_seq();
         let Some(head) = self.store.head(day.id()).await? else { return Ok(false) };
         if head.archived != day.stored.archived || head.seq < stored {
             return Ok(false);
@@ -122,12 +122,5 @@ impl Days {
     /// A day that is in memory.
     fn loaded(&self, id: &str) -> Option<Arc<DayCell>> {
         self.cells().get(id).and_then(|cell| OnceCell::get(cell)).cloned()
-    }
-}
-
-impl DayCell {
-    /// Whether its stream has a reader.
-    fn is_read(&self) -> bool {
-        self.readers.receiver_count() > 0 && !self.has_failed.load(Ordering::Acquire)
     }
 }

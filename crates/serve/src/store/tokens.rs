@@ -5,8 +5,8 @@ use sqlx::any::AnyRow;
 use sqlx::{AnyConnection, Row as _, query};
 
 use super::Store;
-use crate::access::{Role, StoredToken};
 use crate::error::Error;
+use crate::tokens::{Role, StoredToken};
 
 /// Something that was done beside the events of days.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]

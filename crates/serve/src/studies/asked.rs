@@ -11,7 +11,9 @@ use vertifleet_study::{NetworkOrigin, PolicySource, PolicySpec};
 
 use crate::error::Error;
 use crate::networks;
-use crate::service::Service;
+use crate::policies::Policies;
+use crate::store::Store;
+use crate::turns::Turns;
 
 /// Policies of a study.
 const MOST_POLICIES: usize = 10;
@@ -87,7 +89,12 @@ impl NewStudy {
     /// # Errors
     /// Returns [`Error::BadRequest`], [`Error::TooMuch`], [`Error::NotFound`], or what is wrong with the network or the
     /// policies.
-    pub(crate) async fn check(self, service: &Service, actor: &str) -> Result<Asked, Error> {
+    pub(crate) async fn check(
+        self,
+        store: &Store,
+        uploaded: &Policies,
+        (turns, actor): (&Turns, &str),
+    ) -> Result<Asked, Error> {
         let Self { network, toml, policies, days, seed, split, bounds } = self;
         let most = |what, most| Err(Error::TooMuch { what, most });
         if policies.len() > MOST_POLICIES {
@@ -97,7 +104,7 @@ impl NewStudy {
             return most("days in a study", u64::from(MOST_DAYS));
         }
         let network = match (network, toml) {
-            (Some(name), None) => networks::find(service.days.store(), &name).await?.0,
+            (Some(name), None) => networks::find(store, &name).await?.0,
             (None, Some(toml)) => networks::read(&toml)?,
             _ => {
                 let rule = "a study needs either network or toml".to_owned();
@@ -111,14 +118,14 @@ impl NewStudy {
         let mut models = Vec::new();
         for name in &policies {
             if PolicySpec::parse(name)?.is_own() {
-                models.push((name.clone(), service.policies.source(name).await?));
+                models.push((name.clone(), uploaded.source(name).await?));
             }
         }
         let drawn = DrawnDays { purpose: split.into(), first: seed.unwrap_or(1), days };
         let bound_step = bounds.then(Step::default);
         let (origin, warnings) = (NetworkOrigin::Own, Vec::new());
         let asked = Asked { network, origin, policies, models, drawn, split, bound_step, warnings };
-        service.turns.outlooks.work(actor, move |_| asked.tried()).await
+        turns.work(actor, move |_| asked.tried()).await
     }
 }
 
