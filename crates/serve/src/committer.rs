@@ -10,7 +10,8 @@ use crate::clock::LastTime;
 use crate::day_cell::DayCell;
 use crate::error::Error;
 use crate::metrics::Metrics;
-use crate::store::{AppendId, NewEvent, Store, StoredAnswer, StoredEvent};
+use crate::store::{AppendId, NewEvent, Store, StoredAnswer};
+use crate::taken_event::TakenEvent;
 
 /// At most this many requests are committed together.
 const MOST_TOGETHER: usize = 1_024;
@@ -20,13 +21,13 @@ const A_MOMENT: Duration = Duration::from_secs(5);
 
 /// What is done with events once it is known whether they are stored. Events of a day come here in
 /// their order.
-pub(crate) type Done = Box<dyn FnOnce(Result<(), Error>, Vec<StoredEvent>) + Send + Sync>;
+pub(crate) type Done = Box<dyn FnOnce(Result<(), Error>, Vec<TakenEvent>) + Send + Sync>;
 
 /// Events of a day that wait to be stored.
 pub(crate) struct Append {
     pub(crate) id: AppendId,
     pub(crate) day: Arc<DayCell>,
-    pub(crate) events: Vec<StoredEvent>,
+    pub(crate) events: Vec<TakenEvent>,
     pub(crate) answer: Option<StoredAnswer>,
     pub(crate) done: Done,
 }

@@ -12,7 +12,8 @@ use crate::calendar::Calendar;
 use crate::decide::Deciders;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
-use crate::store::{StoredDay, StoredEvent};
+use crate::store::StoredDay;
+use crate::taken_event::TakenEvent;
 
 /// Events that a slow reader may be behind before it has to read from the store.
 const KEPT_FOR_READERS: usize = 1_024;
@@ -44,7 +45,7 @@ impl fmt::Debug for DayCell {
 #[derive(Debug)]
 pub(crate) struct Published {
     /// The event.
-    pub(crate) event: StoredEvent,
+    pub(crate) event: TakenEvent,
     /// As a message of the stream, made once for all readers.
     pub(crate) shown: OnceLock<Bytes>,
 }
@@ -108,7 +109,7 @@ impl DayCell {
     }
 
     /// Makes events public that are stored.
-    pub(crate) fn publish(&self, events: Vec<StoredEvent>) {
+    pub(crate) fn publish(&self, events: Vec<TakenEvent>) {
         if let Some(last) = events.last() {
             let seq = last.seq;
             self.durable.send_if_modified(|stored| {

@@ -21,7 +21,8 @@ use crate::event::Event;
 use crate::keys::{Busy, Idempotency};
 use crate::mark::EventMark;
 use crate::metrics::Metrics;
-use crate::store::{AppendId, Store, StoredAnswer, StoredDay, StoredEvent};
+use crate::store::{AppendId, Store, StoredAnswer, StoredDay};
+use crate::taken_event::TakenEvent;
 use crate::turns::Turns;
 
 /// Beyond so many days, days that are not in use leave memory. A day of `paper` takes half a
@@ -29,15 +30,6 @@ use crate::turns::Turns;
 const MOST_IN_MEMORY: usize = 1_000;
 /// A write is tried so often when other services write to the same day.
 const TRIES: u32 = 5;
-
-/// What a write led to.
-#[derive(Debug, Clone)]
-pub(crate) struct Appended {
-    /// The number of the last event.
-    pub(crate) seq: u64,
-    /// The events as they are stored.
-    pub(crate) events: Vec<StoredEvent>,
-}
 
 /// Who writes, and what must hold for it.
 #[derive(Debug, Clone, Default)]
@@ -217,7 +209,7 @@ impl Days {
         day: &Arc<DayCell>,
         writer: Writer,
         events: Vec<Event>,
-        answer: impl Fn(&Appended) -> T,
+        answer: impl Fn(&[TakenEvent]) -> T,
     ) -> Result<T, Error> {
         let mut day = Arc::clone(day);
         for _ in 0..TRIES {
@@ -254,7 +246,7 @@ impl Days {
         day: &Arc<DayCell>,
         writer: Writer,
         events: Vec<Event>,
-        answer: impl Fn(&Appended) -> T,
+        answer: impl Fn(&[TakenEvent]) -> T,
     ) -> Result<T, Error> {
         if day.stored.archived {
             return Err(Error::Archived { id: day.id().to_owned() });
@@ -270,8 +262,7 @@ impl Days {
             }
             // Applied in memory, so that the next events can be checked at once.
             let events = take_all(&mut state, events, &writer.actor)?;
-            let appended = Appended { seq: state.seq(), events };
-            let answer = answer(&appended);
+            let answer = answer(&events);
             let Writer { idempotency, busy, .. } = writer;
             let kept = idempotency.map(|asked| asked.answered_with(&answer));
             // Published once they are stored, also if the client has gone by then: a crash must
@@ -286,7 +277,7 @@ impl Days {
                 let _ = done.send(outcome);
             };
             let (day, done) = (Arc::clone(day), Box::new(publish));
-            let append = Append { id, day, events: appended.events, answer: kept, done };
+            let append = Append { id, day, events, answer: kept, done };
             self.committer.push(append);
             answer
         };
@@ -296,23 +287,28 @@ impl Days {
     }
 }
 
+/// The number of the last of some events, of which there is one.
+pub(crate) fn last_seq(events: &[TakenEvent]) -> u64 {
+    events.last().map_or(0, |event| event.seq)
+}
+
 /// Takes events in, all or none.
 fn take_all(
     state: &mut DispatchDay,
     events: Vec<Event>,
     actor: &str,
-) -> Result<Vec<StoredEvent>, Error> {
+) -> Result<Vec<TakenEvent>, Error> {
     let at_ms = now_ms();
     let before = (events.len() > 1).then(|| state.clone());
     let of = events.len();
-    let admit = |(at, event)| {
-        let taken = state.admit(event, actor, at_ms);
+    let take = |(at, event)| {
+        let taken = state.check_time(&event).and_then(|()| state.take(event, actor, at_ms));
         taken.map_err(|cause| match of {
             1 => cause,
             _ => Error::InList { number: at + 1, of, cause: Box::new(cause) },
         })
     };
-    let taken = events.into_iter().enumerate().map(admit).collect();
+    let taken = events.into_iter().enumerate().map(take).collect();
     if let (Err(_), Some(before)) = (&taken, before) {
         *state = before;
     }

@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use vertifleet_core::Scenario;
-use vertifleet_sim::live::{LiveDay, Notice, Report};
+use vertifleet_sim::live::{LiveDay, Notice};
 
 use crate::error::Error;
-use crate::event::{Event, Ids};
+use crate::event::Event;
+use crate::ids::Ids;
 use crate::moment::Moment;
-use crate::store::{Head, StoredEvent};
+use crate::store::Head;
+use crate::taken_event::TakenEvent;
 
 /// What is known of a day after its events so far.
 #[derive(Debug, Clone)]
@@ -60,61 +62,42 @@ impl DispatchDay {
         told.chain(self.live.notices().map(|notice| (None, notice.to_string())))
     }
 
-    /// Takes an event in that a client sends, unless its time is probably wrong, and returns it as
-    /// it is to be stored.
+    /// Checks that the time of an event that a client sends is probably right.
     ///
     /// # Errors
-    /// Returns [`Error::UnknownId`] or [`Error::ReportError`] if the day does not take it. Nothing
-    /// has changed then.
-    pub(crate) fn admit(
-        &mut self,
-        event: Event,
-        actor: &str,
-        at_ms: i64,
-    ) -> Result<StoredEvent, Error> {
-        let report = event.what.report(&self.ids)?;
+    /// Returns [`Error::UnknownId`] or [`Error::ReportError`].
+    pub(crate) fn check_time(&self, event: &Event) -> Result<(), Error> {
         let time = event.time.map_or(self.live.now(), Moment::time);
-        self.live.check_times(time, &report)?;
-        self.enter_report(event, &report, actor, at_ms)
+        Ok(self.live.check_times(time, &event.what.report(&self.ids)?)?)
     }
 
-    /// Takes an event in, and returns it as it is to be stored.
+    /// Takes an event in, and returns it as it is to be taken.
     ///
     /// # Errors
     /// Returns [`Error::UnknownId`] or [`Error::ReportError`] if the day cannot take it. Nothing
     /// has changed then.
     pub(crate) fn take(
         &mut self,
-        event: Event,
-        actor: &str,
-        at_ms: i64,
-    ) -> Result<StoredEvent, Error> {
-        let report = event.what.report(&self.ids)?;
-        self.enter_report(event, &report, actor, at_ms)
-    }
-
-    fn enter_report(
-        &mut self,
         mut event: Event,
-        report: &Report,
         actor: &str,
         at_ms: i64,
-    ) -> Result<StoredEvent, Error> {
+    ) -> Result<TakenEvent, Error> {
+        let report = event.what.report(&self.ids)?;
         let time = event.time.get_or_insert_with(|| self.live.now().into()).time();
-        let notices = self.live.take(time, report)?;
+        let notices = self.live.take(time, &report)?;
         let texts: Vec<String> = notices.iter().map(Notice::to_string).collect();
         let json = |value: serde_json::Result<String>| value.expect("plain data can be written");
-        let mut stored = StoredEvent {
+        let mut taken = TakenEvent {
             seq: self.seq + 1,
+            chain: 0,
             at_ms,
             actor: actor.to_owned(),
             body: json(serde_json::to_string(&event)),
             notices: json(serde_json::to_string(&texts)),
-            chain: 0,
         };
-        stored.chain = stored.chain_after(self.chain);
-        self.enter(stored.seq, stored.chain, texts);
-        Ok(stored)
+        taken.chain = taken.chain_after(self.chain);
+        self.enter(taken.seq, taken.chain, texts);
+        Ok(taken)
     }
 
     fn enter(&mut self, seq: u64, chain: u32, notices: Vec<String>) {
@@ -144,20 +127,20 @@ impl DispatchDay {
     ///
     /// # Errors
     /// Returns [`Error::BadData`] if it is not the next one, is damaged, or cannot be taken.
-    pub(crate) fn replay(&mut self, stored: &StoredEvent) -> Result<(), Error> {
-        let bad = |rule: String| Error::BadData { rule: format!("event {}: {rule}", stored.seq) };
-        if stored.seq != self.seq + 1 {
+    pub(crate) fn replay(&mut self, taken: &TakenEvent) -> Result<(), Error> {
+        let bad = |rule: String| Error::BadData { rule: format!("event {}: {rule}", taken.seq) };
+        if taken.seq != self.seq + 1 {
             return Err(bad(format!("it follows event {}", self.seq)));
         }
-        if stored.chain != stored.chain_after(self.chain) {
+        if taken.chain != taken.chain_after(self.chain) {
             return Err(bad("its sum is wrong".to_owned()));
         }
         let event: Event =
-            serde_json::from_str(&stored.body).map_err(|error| bad(error.to_string()))?;
+            serde_json::from_str(&taken.body).map_err(|error| bad(error.to_string()))?;
         let report = event.what.report(&self.ids).map_err(|error| bad(error.to_string()))?;
         let time = event.time.ok_or_else(|| bad("it has no time".to_owned()))?.time();
         let notices = self.live.take(time, &report).map_err(|unfit| bad(unfit.to_string()))?;
-        self.enter(stored.seq, stored.chain, notices.iter().map(Notice::to_string).collect());
+        self.enter(taken.seq, taken.chain, notices.iter().map(Notice::to_string).collect());
         Ok(())
     }
 }

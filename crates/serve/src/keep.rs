@@ -16,9 +16,8 @@ pub use self::tokens::Tokens;
 use crate::days::replay;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
-use crate::store::{
-    AuditRecord, DATABASE, Location, PAGE, Store, StoredDay, StoredEvent, make_folder,
-};
+use crate::store::{AuditRecord, DATABASE, Location, PAGE, Store, StoredDay, make_folder};
+use crate::taken_event::TakenEvent;
 
 /// The data of a service, which may run meanwhile.
 #[derive(Debug)]
@@ -51,17 +50,13 @@ pub struct Contents {
 #[derive(Debug, Serialize)]
 struct Exported {
     format: &'static str,
-    id: String,
-    name: String,
-    created_ms: i64,
-    archived: bool,
-    policy: String,
-    date: String,
-    time_zone: String,
+    #[serde(flatten)]
+    day: StoredDay,
     scenario: Box<RawValue>,
     events: Vec<ExportedEvent>,
 }
 
+/// An event as it is written out, without what the log needs.
 #[derive(Debug, Serialize)]
 struct ExportedEvent {
     seq: u64,
@@ -191,7 +186,7 @@ impl Keeper {
         self.runtime.block_on(async {
             let found = self.store.day(id).await?;
             let (day, scenario) = found.ok_or_else(|| Error::not_found("day", id))?;
-            let mut events: Vec<StoredEvent> = Vec::new();
+            let mut events: Vec<TakenEvent> = Vec::new();
             loop {
                 let after = events.last().map_or(0, |event| event.seq);
                 let page = self.store.events(id, after, PAGE).await?;
@@ -204,34 +199,16 @@ impl Keeper {
     }
 }
 
-fn written_out(
-    day: StoredDay,
-    scenario: String,
-    events: Vec<StoredEvent>,
-) -> Result<String, Error> {
+fn written_out(day: StoredDay, scenario: String, events: Vec<TakenEvent>) -> Result<String, Error> {
     let raw = |text: String| {
         RawValue::from_string(text).map_err(|error| Error::BadData { rule: error.to_string() })
     };
-    let event = |event: StoredEvent| {
-        let StoredEvent { seq, at_ms, actor, body, notices, .. } = event;
+    let event = |event: TakenEvent| {
+        let TakenEvent { seq, at_ms, actor, body, notices, .. } = event;
         Ok(ExportedEvent { seq, at_ms, actor, event: raw(body)?, notices: raw(notices)? })
     };
-    let StoredDay { id, name, created_ms, archived, policy, date, time_zone } = day;
-    let scenario = raw(scenario)?;
     let events = events.into_iter().map(event).collect::<Result<_, Error>>()?;
-    let format = FORMAT;
-    let exported = Exported {
-        format,
-        id,
-        name,
-        created_ms,
-        archived,
-        policy,
-        date,
-        time_zone,
-        scenario,
-        events,
-    };
+    let exported = Exported { format: FORMAT, day, scenario: raw(scenario)?, events };
     Ok(serde_json::to_string_pretty(&exported).expect("plain data can be written"))
 }
 

@@ -21,6 +21,7 @@ mod error;
 mod event;
 #[cfg(any(test, feature = "fuzz"))]
 mod fuzz;
+mod ids;
 mod keep;
 mod keys;
 mod limits;
@@ -40,6 +41,7 @@ mod service;
 mod spans;
 mod store;
 mod studies;
+mod taken_event;
 mod tokens;
 mod turns;
 

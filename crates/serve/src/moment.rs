@@ -28,6 +28,11 @@ pub(crate) fn by_calendar<T>(calendar: Option<&Calendar>, work: impl FnOnce() ->
     work()
 }
 
+/// Whether times are being read or written by a calendar.
+pub(crate) fn is_by_calendar() -> bool {
+    CALENDAR.with_borrow(Option::is_some)
+}
+
 /// A time of the day that is being dispatched, as seconds since midnight or as `HH:MM:SS`, which may pass 24:00:00. It is
 /// written as `HH:MM:SS`. By a calendar it is read and written in ISO 8601 too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -17,7 +17,8 @@ use vertifleet_study::ResolvedPolicy;
 
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
-use crate::event::{Event, Ids};
+use crate::event::Event;
+use crate::ids::Ids;
 use crate::moment::Moment;
 
 /// How a day is expected to go on if a policy takes every decision from now on.

@@ -28,7 +28,6 @@ use self::server::Server;
 pub use self::tokens::AuditRecord;
 use crate::clock::now_ms;
 use crate::error::Error;
-use crate::mark::EventMark;
 
 /// The name of the database in the folder of the data.
 pub(crate) const DATABASE: &str = "vertifleet.db";
@@ -53,7 +52,7 @@ pub(crate) struct Store {
 }
 
 /// A day as it is stored, without its scenario.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct StoredDay {
     /// Its id.
     pub(crate) id: String,
@@ -69,23 +68,6 @@ pub(crate) struct StoredDay {
     pub(crate) date: String,
     /// The time zone of its clock by its name in the IANA database; empty without a date.
     pub(crate) time_zone: String,
-}
-
-/// An event as it is stored.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct StoredEvent {
-    /// Its number on its day, from 1.
-    pub(crate) seq: u64,
-    /// When it was taken, milliseconds of the Unix clock.
-    pub(crate) at_ms: i64,
-    /// Who sent it.
-    pub(crate) actor: String,
-    /// The event as JSON.
-    pub(crate) body: String,
-    /// What people should look at, as a JSON list of texts.
-    pub(crate) notices: String,
-    /// The sum over the event and those before.
-    pub(crate) chain: u32,
 }
 
 /// An answer that is given again when a request comes again with its key.
@@ -113,24 +95,6 @@ impl StoredDay {
         };
         let texts = [id, name, policy, date, time_zone].map(String::as_str);
         texts.into_iter().chain([scenario]).fold(sum, add).into()
-    }
-}
-
-impl StoredEvent {
-    /// Its mark.
-    pub(crate) fn mark(&self) -> EventMark {
-        EventMark { seq: self.seq, chain: Some(self.chain) }
-    }
-
-    /// The sum of an event after one with the sum `before`.
-    pub(crate) fn chain_after(&self, before: u32) -> u32 {
-        let mut sum = crc32c::crc32c_append(before, &self.seq.to_le_bytes());
-        sum = crc32c::crc32c_append(sum, &self.at_ms.to_le_bytes());
-        for text in [&self.actor, &self.body, &self.notices] {
-            sum = crc32c::crc32c_append(sum, &(text.len() as u64).to_le_bytes());
-            sum = crc32c::crc32c_append(sum, text.as_bytes());
-        }
-        sum
     }
 }
 

@@ -15,12 +15,13 @@ use super::extract::{Named, Validated, parse};
 use super::write::Idempotent;
 use crate::access::Actor;
 use crate::day_cell::DayCell;
-use crate::days::{Appended, Writer};
+use crate::days::{Writer, last_seq};
 use crate::decide::Proposal;
 use crate::error::Error;
 use crate::event::{Event, EventKind, reason};
 use crate::moment::{Moment, by_calendar};
 use crate::service::Service;
+use crate::taken_event::TakenEvent;
 
 /// A policy is asked so often when events come in between.
 const TRIES: u32 = 5;
@@ -200,8 +201,8 @@ async fn take(
 ) -> Result<TakenDecision, Error> {
     let EventKind::Decided { to, .. } = &event.what else { unreachable!("it is a decision") };
     let to = to.clone();
-    let answer = |appended: &Appended| TakenDecision {
-        seq: appended.seq,
+    let answer = |events: &[TakenEvent]| TakenDecision {
+        seq: last_seq(events),
         to: to.clone(),
         proposal: proposal.clone(),
     };

@@ -13,12 +13,12 @@ use super::answer::{Times, at_event, json};
 use super::extract::{EventNumber, Named, PageSize, Validated, parse};
 use super::write::Idempotent;
 use crate::access::Actor;
-use crate::days::Appended;
+use crate::days::last_seq;
 use crate::error::Error;
 use crate::event::{Event, EventKind};
 use crate::moment::by_calendar;
 use crate::service::Service;
-use crate::store::StoredEvent;
+use crate::taken_event::TakenEvent;
 
 /// The number of events that a request may bring.
 pub(super) const MOST_EVENTS: usize = 1_000;
@@ -94,57 +94,10 @@ pub(crate) struct Taken {
 }
 
 impl Taken {
-    pub(super) fn of(appended: &Appended) -> Self {
-        let notices = appended.events.iter().map(|event| raw(&event.notices)).collect();
-        Self { seq: appended.seq, notices }
-    }
-}
-
-fn raw(json: &str) -> Box<RawValue> {
-    RawValue::from_string(json.to_owned()).expect("it was written as JSON")
-}
-
-/// An event with its times written anew.
-fn rewritten(body: &str) -> Box<RawValue> {
-    let event: Option<Event> = serde_json::from_str(body).ok();
-    let text = event.and_then(|event| serde_json::to_string(&event).ok());
-    raw(text.as_deref().unwrap_or(body))
-}
-
-/// An event as it was taken.
-#[derive(Debug, Serialize, ToSchema)]
-pub(crate) struct TakenEvent {
-    /// Its number.
-    seq: u64,
-    /// Its number with a sum over the log up to it. Sent as `Last-Event-ID`, it makes sure that a stream goes on in the same log.
-    #[schema(pattern = "^[0-9]{1,19}-[0-9a-f]{8}$")]
-    mark: String,
-    /// When it was taken, milliseconds of the Unix clock.
-    at_ms: i64,
-    /// Who sent it.
-    actor: String,
-    /// The event.
-    #[schema(value_type = Event)]
-    event: Box<RawValue>,
-    /// What people should look at.
-    #[schema(value_type = Vec<String>)]
-    notices: Box<RawValue>,
-}
-
-impl TakenEvent {
-    pub(super) fn of(stored: &StoredEvent, times: Times) -> Self {
-        let event = match times {
-            Times::Clock => raw(&stored.body),
-            Times::Iso => rewritten(&stored.body),
-        };
-        Self {
-            seq: stored.seq,
-            mark: stored.mark().to_string(),
-            at_ms: stored.at_ms,
-            actor: stored.actor.clone(),
-            event,
-            notices: raw(&stored.notices),
-        }
+    fn of(events: &[TakenEvent]) -> Self {
+        let raw = |event: &TakenEvent| RawValue::from_string(event.notices.clone());
+        let notices = events.iter().map(|event| raw(event).expect("it was written as JSON"));
+        Self { seq: last_seq(events), notices: notices.collect() }
     }
 }
 
@@ -212,10 +165,7 @@ pub(super) async fn list(
     let page = async move {
         let page = store.events(day.id(), after, limit).await?;
         let next = page.events.last().filter(|_| !page.is_last).map(|event| event.seq);
-        times.of(&day, || {
-            let events = page.events.iter().map(|event| TakenEvent::of(event, times)).collect();
-            Ok(json(StatusCode::OK, &EventList { events, next }))
-        })
+        times.of(&day, || Ok(json(StatusCode::OK, &EventList { events: page.events, next })))
     };
     if limit <= SHORT_PAGE {
         return page.await;

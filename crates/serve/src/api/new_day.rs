@@ -9,7 +9,7 @@ use vertifleet_core::{DaySeed, Matrix, Scenario};
 
 use crate::calendar::Calendar;
 use crate::error::Error;
-use crate::event::Ids;
+use crate::ids::Ids;
 use crate::moment::Moment;
 use crate::networks;
 use crate::service::Service;

@@ -19,13 +19,13 @@ use utoipa::IntoParams;
 
 use self::position::Position;
 use super::answer::Times;
-use super::events::TakenEvent;
 use super::extract::{EventNumber, Named, Validated};
 use crate::day_cell::{DayCell, Published};
 use crate::error::Error;
 use crate::mark::EventMark;
 use crate::service::Service;
-use crate::store::{Store, StoredEvent};
+use crate::store::Store;
+use crate::taken_event::TakenEvent;
 use crate::tokens::Role;
 
 /// Events that are read from the store at once. They are written out between other requests, so they are few.
@@ -215,10 +215,9 @@ impl Reader {
     }
 
     /// An event as a message of the stream.
-    fn message(&self, event: &StoredEvent) -> Bytes {
-        let taken = || Ok(TakenEvent::of(event, self.times));
-        let taken = self.times.of(&self.day, taken).expect("times were checked");
-        let data = serde_json::to_string(&taken).expect("plain data can be written");
+    fn message(&self, event: &TakenEvent) -> Bytes {
+        let write = || Ok(serde_json::to_string(event).expect("plain data can be written"));
+        let data = self.times.of(&self.day, write).expect("times were checked");
         format!("id: {}\ndata: {data}\n\n", event.seq).into()
     }
 }

@@ -17,7 +17,8 @@ use vertifleet_sim::live::Reporter;
 
 use super::Operation;
 use crate::error::Error;
-use crate::event::{Event, EventKind, Ids};
+use crate::event::{Event, EventKind};
+use crate::ids::Ids;
 
 /// A write is tried again for this long when the service does not answer.
 const REQUEST_TIMEOUT: Duration = Duration::from_secs(30);

@@ -3,8 +3,9 @@
 
 use sqlx::{AssertSqlSafe, query, query_scalar};
 
-use super::{DayNotice, Store, StoredAnswer, StoredEvent, as_i64};
+use super::{DayNotice, Store, StoredAnswer, as_i64};
 use crate::error::Error;
+use crate::taken_event::TakenEvent;
 
 /// An event that is to be stored.
 #[derive(Debug, Clone, Copy)]
@@ -14,7 +15,7 @@ pub(crate) struct NewEvent<'a> {
     /// The append that it belongs to.
     pub(crate) append: AppendId,
     /// The event.
-    pub(crate) event: &'a StoredEvent,
+    pub(crate) event: &'a TakenEvent,
 }
 
 /// A random number that identifies one append, so that a service recognises its own events among

@@ -4,8 +4,9 @@ use futures_util::TryStreamExt as _;
 use sqlx::any::AnyRow;
 use sqlx::{Row as _, query, query_as};
 
-use super::{Store, StoredEvent, as_i64};
+use super::{Store, as_i64};
 use crate::error::Error;
+use crate::taken_event::TakenEvent;
 
 /// Rows that are read at once.
 pub(crate) const PAGE: u32 = 10_000;
@@ -18,7 +19,7 @@ const PAGE_BYTES: usize = 4 << 20;
 /// Events of a day that follow each other.
 #[derive(Debug)]
 pub(crate) struct Page {
-    pub(crate) events: Vec<StoredEvent>,
+    pub(crate) events: Vec<TakenEvent>,
     /// Whether no event follows them.
     pub(crate) is_last: bool,
 }
@@ -57,7 +58,7 @@ impl Store {
         day: &str,
         after: u64,
         until: u64,
-    ) -> Result<Vec<StoredEvent>, Error> {
+    ) -> Result<Vec<TakenEvent>, Error> {
         let limit = u32::try_from(until - after).unwrap_or(REPLAYED).min(REPLAYED);
         self.in_time(self.read_to_replay(day, after, limit)).await
     }
@@ -69,7 +70,7 @@ impl Store {
         day: &str,
         after: u64,
         limit: u32,
-    ) -> Result<Vec<StoredEvent>, Error> {
+    ) -> Result<Vec<TakenEvent>, Error> {
         // Events and notices are compact JSON, so none of them contains the end of a line.
         const POSTGRES: &str = "SELECT json_agg(json_build_array(seq, at_ms, chain, actor))::text,
              string_agg(SUBSTR(body, 1, 4096), CHR(10)), string_agg(SUBSTR(notices, 1, 4096), CHR(10)) FROM
@@ -89,7 +90,7 @@ impl Store {
         let is_whole = |(body, notices): &(&str, &str)| body.len().max(notices.len()) < LONG;
         let event = |((seq, at_ms, chain, actor), (body, notices)): (_, (&str, &str))| {
             let (body, notices) = (body.to_owned(), notices.to_owned());
-            StoredEvent { seq, at_ms, actor, body, notices, chain }
+            TakenEvent { seq, chain, at_ms, actor, body, notices }
         };
         let events: Vec<_> = rows.into_iter().zip(texts.take_while(is_whole)).map(event).collect();
         if events.is_empty() {
@@ -99,10 +100,10 @@ impl Store {
     }
 }
 
-fn stored_event(row: &AnyRow) -> Result<StoredEvent, Error> {
+fn stored_event(row: &AnyRow) -> Result<TakenEvent, Error> {
     let number = |name: &str| -> Result<i64, Error> { Ok(row.try_get(name)?) };
     let bad = |name: &str| Error::BadData { rule: format!("an event with an impossible {name}") };
-    Ok(StoredEvent {
+    Ok(TakenEvent {
         seq: u64::try_from(number("seq")?).map_err(|_| bad("number"))?,
         at_ms: number("at_ms")?,
         actor: row.try_get("actor")?,

@@ -1,7 +1,8 @@
 //! Where a reader is in the log of a day, and what it is sent next.
 
 use crate::mark::EventMark;
-use crate::store::{Page, StoredEvent};
+use crate::store::Page;
+use crate::taken_event::TakenEvent;
 
 /// The position of a reader that reads the log from the store until it has caught up, and then
 /// takes events as they are published. It subscribes before it reads, so it is published what it
@@ -38,12 +39,12 @@ impl Position {
     /// A page of the store follows on the position; all its events are sent.
     pub(super) fn read(&mut self, page: &Page) {
         self.is_behind = !page.is_last;
-        self.after = page.events.last().map_or(self.after, StoredEvent::mark);
+        self.after = page.events.last().map_or(self.after, TakenEvent::mark);
     }
 
     /// An event was published. Returns whether it is sent: it may have been read from the store
     /// before, or follow on some that have to be read first.
-    pub(super) fn take(&mut self, event: &StoredEvent) -> bool {
+    pub(super) fn take(&mut self, event: &TakenEvent) -> bool {
         let is_next = event.seq == self.after.seq + 1;
         if is_next {
             self.after = event.mark();
@@ -62,29 +63,30 @@ mod tests {
     use super::Position;
     use crate::mark::EventMark;
     use crate::orders::{Choices, in_every_order};
-    use crate::store::{Page, StoredEvent};
+    use crate::store::Page;
+    use crate::taken_event::TakenEvent;
 
-    fn event(seq: u64) -> StoredEvent {
+    fn event(seq: u64) -> TakenEvent {
         let text = String::new;
-        StoredEvent { seq, at_ms: 0, actor: text(), body: text(), notices: text(), chain: 0 }
+        TakenEvent { seq, chain: 0, at_ms: 0, actor: text(), body: text(), notices: text() }
     }
 
     /// A reader, and the numbers of the events that it has been sent.
     struct Reader {
-        fresh: Receiver<StoredEvent>,
+        fresh: Receiver<TakenEvent>,
         position: Position,
         sent: Vec<u64>,
     }
 
     impl Reader {
-        fn new(publisher: &Sender<StoredEvent>) -> Self {
+        fn new(publisher: &Sender<TakenEvent>) -> Self {
             let position = Position::after(EventMark { seq: 0, chain: None });
             Self { fresh: publisher.subscribe(), position, sent: Vec::new() }
         }
 
         /// Reads one event from the store or takes one that was published. Returns false if it has
         /// to wait.
-        fn step(&mut self, store: &[StoredEvent]) -> bool {
+        fn step(&mut self, store: &[TakenEvent]) -> bool {
             if self.position.is_behind() {
                 let mut left = store.iter().filter(|one| one.seq > self.position.mark().seq);
                 let events: Vec<_> = left.by_ref().take(1).cloned().collect();
