@@ -1,6 +1,5 @@
 //! A day in memory that requests share: its state, its readers, and how much of it is stored.
 
-use std::fmt;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Duration;
@@ -33,12 +32,6 @@ pub(crate) struct DayCell {
     /// thrown away.
     has_failed: AtomicBool,
     pub(crate) deciders: Deciders,
-}
-
-impl fmt::Debug for DayCell {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("DayCell").field("stored", &self.stored).finish_non_exhaustive()
-    }
 }
 
 /// An event that readers are told.

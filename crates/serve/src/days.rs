@@ -58,11 +58,12 @@ impl Writer {
 }
 
 /// All days.
-#[derive(Debug)]
 pub(crate) struct Days {
-    store: Store,
+    /// The store.
+    pub(crate) store: Store,
     most_events: u64,
-    metrics: Arc<Metrics>,
+    /// What is measured.
+    pub(crate) metrics: Arc<Metrics>,
     committer: Committer,
     /// Turns for reading days from the store.
     turns: Turns,
@@ -91,16 +92,6 @@ impl Days {
             return Err(Error::Store { cause });
         }
         self.store.check().await
-    }
-
-    /// What is measured.
-    pub(crate) fn metrics(&self) -> &Metrics {
-        &self.metrics
-    }
-
-    /// The store.
-    pub(crate) fn store(&self) -> &Store {
-        &self.store
     }
 
     fn cell(&self, id: &str) -> Arc<OnceCell<Arc<DayCell>>> {

@@ -106,7 +106,7 @@ pub(crate) enum RuleName {
 type Shared = Arc<tokio::sync::Mutex<Decider>>;
 
 /// The policies that decide on a day, each with its memory of the day.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Deciders(Mutex<HashMap<String, Shared>>);
 
 /// A policy with its memory.
@@ -116,12 +116,6 @@ pub(crate) struct Decider {
     room: Option<Simulation>,
     values: Vec<f64>,
     renewing: Renewing,
-}
-
-impl std::fmt::Debug for Decider {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Decider")
-    }
 }
 
 impl Deciders {

@@ -1,6 +1,5 @@
 //! What the service measures about itself, for Prometheus.
 
-use prometheus_client::encoding::EncodeLabelSet;
 use prometheus_client::encoding::text::encode;
 use prometheus_client::metrics::counter::Counter;
 use prometheus_client::metrics::family::Family;
@@ -11,34 +10,16 @@ use prometheus_client::registry::Registry;
 
 use crate::clock::now_ms;
 
-/// A path with a method, as it stands in the description of the API.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
-struct Path {
-    method: String,
-    path: String,
-}
-
-/// A path with what was answered.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
-struct Answered {
-    method: String,
-    path: String,
-    status: u16,
-}
-
-/// A policy.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, EncodeLabelSet)]
-struct ByPolicy {
-    policy: String,
-}
+/// Names with values, which identify a series of a metric.
+type Labels<const N: usize> = [(&'static str, String); N];
 
 /// The numbers.
 #[derive(Debug)]
 pub(crate) struct Metrics {
     registry: Registry,
-    requests: Family<Answered, Counter>,
-    request_seconds: Family<Path, Histogram>,
-    decision_seconds: Family<ByPolicy, Histogram>,
+    requests: Family<Labels<3>, Counter>,
+    request_seconds: Family<Labels<2>, Histogram>,
+    decision_seconds: Family<Labels<1>, Histogram>,
     /// Events that were stored.
     pub(crate) events: Counter,
     /// Writes to the disk, each for all events that waited.
@@ -93,16 +74,15 @@ impl Metrics {
 
     /// Counts a request that was answered. `path` is the one of the description.
     pub(crate) fn answered(&self, method: &str, path: &str, status: u16, seconds: f64) {
-        let (method, path) = (method.to_owned(), path.to_owned());
-        let of_path = Path { method: method.clone(), path: path.clone() };
+        let (method, path) = (("method", method.to_owned()), ("path", path.to_owned()));
+        let of_path = [method.clone(), path.clone()];
         self.request_seconds.get_or_create(&of_path).observe(seconds);
-        self.requests.get_or_create(&Answered { method, path, status }).inc();
+        self.requests.get_or_create(&[method, path, ("status", status.to_string())]).inc();
     }
 
     /// Counts a decision.
     pub(crate) fn decided(&self, policy: &str, seconds: f64) {
-        let policy = ByPolicy { policy: policy.to_owned() };
-        self.decision_seconds.get_or_create(&policy).observe(seconds);
+        self.decision_seconds.get_or_create(&[("policy", policy.to_owned())]).observe(seconds);
     }
 
     /// Everything in Prometheus's text format.

@@ -41,6 +41,22 @@ pub struct Operation {
     pub by_hand: bool,
 }
 
+impl Operation {
+    /// A day that a service of this machine decides by a policy, as fast as it goes.
+    pub fn new(url: &str, day: Arc<Scenario>, policy: &str) -> Self {
+        Self {
+            url: url.to_owned(),
+            day,
+            time_zone: None,
+            policy: policy.to_owned(),
+            token: None,
+            trusted: None,
+            speed: None,
+            by_hand: false,
+        }
+    }
+}
+
 /// What came of a day.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OperationReport {

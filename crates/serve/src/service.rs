@@ -20,7 +20,6 @@ use crate::turns::Turns;
 /// Large bodies that are read at once.
 const UPLOADS: usize = 4;
 /// The running service.
-#[derive(Debug)]
 pub(crate) struct Service {
     /// Its days.
     pub(crate) days: Days,
@@ -80,9 +79,9 @@ impl Service {
         };
         let days = Days::new(store, limits.events, turns.readings.clone());
         let stopping = watch::Sender::new(false);
-        let access = Access::new(days.store().clone(), limits.requests_per_s);
-        let policies = Policies::new(days.store().clone());
-        let used = days.store().keys().await?;
+        let access = Access::new(days.store.clone(), limits.requests_per_s);
+        let policies = Policies::new(days.store.clone());
+        let used = days.store.keys().await?;
         let keys = Keys::new(used.as_deref());
         let uploads = Semaphore::new(UPLOADS);
         let studies = Studies::default();

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 use sqlx::any::AnyRow;
-use sqlx::{Any, AnyPool, Row as _, Transaction, query, query_scalar};
+use sqlx::{Any, AnyPool, Row as _, Transaction, query, query_as, query_scalar};
 
 pub(crate) use self::append::{AppendId, NewEvent};
 pub(crate) use self::events::{PAGE, Page};
@@ -109,10 +109,6 @@ impl Store {
         self.server.is_some()
     }
 
-    fn pool(&self) -> &AnyPool {
-        &self.pool
-    }
-
     /// Adds a day.
     pub(crate) async fn add_day(
         &self,
@@ -120,39 +116,33 @@ impl Store {
         scenario: &str,
         answer: Option<&StoredAnswer>,
     ) -> Result<(), Error> {
-        self.in_time(self.add_day_at_once(day, scenario, answer)).await
-    }
-
-    async fn add_day_at_once(
-        &self,
-        day: &StoredDay,
-        scenario: &str,
-        answer: Option<&StoredAnswer>,
-    ) -> Result<(), Error> {
-        let mut transaction = self.pool.begin().await?;
-        query("INSERT INTO scenarios (day, scenario) VALUES ($1, $2)")
+        let add = async {
+            let mut transaction = self.pool.begin().await?;
+            query("INSERT INTO scenarios (day, scenario) VALUES ($1, $2)")
+                .bind(&day.id)
+                .bind(scenario)
+                .execute(&mut *transaction)
+                .await?;
+            query(
+                "INSERT INTO days (id, name, created_ms, archived, policy, date, time_zone, sum)
+             VALUES ($1, $2, $3, $4, $5, $6, $7, $8)",
+            )
             .bind(&day.id)
-            .bind(scenario)
+            .bind(&day.name)
+            .bind(day.created_ms)
+            .bind(i64::from(day.archived))
+            .bind(&day.policy)
+            .bind(&day.date)
+            .bind(&day.time_zone)
+            .bind(day.sum(scenario))
             .execute(&mut *transaction)
             .await?;
-        query(
-            "INSERT INTO days (id, name, created_ms, archived, policy, date, time_zone, sum)
-             VALUES ($1, $2, $3, $4, $5, $6, $7, $8)",
-        )
-        .bind(&day.id)
-        .bind(&day.name)
-        .bind(day.created_ms)
-        .bind(i64::from(day.archived))
-        .bind(&day.policy)
-        .bind(&day.date)
-        .bind(&day.time_zone)
-        .bind(day.sum(scenario))
-        .execute(&mut *transaction)
-        .await?;
-        if let Some(answer) = answer {
-            self.insert_answers(&mut transaction, &[answer], day.created_ms).await?;
-        }
-        Ok(transaction.commit().await?)
+            if let Some(answer) = answer {
+                self.insert_answers(&mut transaction, &[answer], day.created_ms).await?;
+            }
+            Ok::<_, Error>(transaction.commit().await?)
+        };
+        self.in_time(add).await
     }
 
     /// The days after `after`, in the order of their ids.
@@ -255,17 +245,11 @@ impl Store {
 
     /// The answer that was given to a request with this key.
     pub(crate) async fn answer(&self, key: &str) -> Result<Option<StoredAnswer>, Error> {
-        let select = query("SELECT request, answer FROM answers WHERE idempotency_key = $1");
+        let select = query_as("SELECT request, answer FROM answers WHERE idempotency_key = $1");
         let select = select.bind(key).fetch_optional(&self.pool);
-        let row = self.in_time(select).await?;
-        let answer = |row: AnyRow| {
-            Ok(StoredAnswer {
-                key: key.to_owned(),
-                request: row.try_get("request")?,
-                answer: row.try_get("answer")?,
-            })
-        };
-        row.map(answer).transpose()
+        let row: Option<(String, String)> = self.in_time(select).await?;
+        let stored = |(request, answer)| StoredAnswer { key: key.to_owned(), request, answer };
+        Ok(row.map(stored))
     }
 
     /// All keys that requests have used; `None` if other processes may use keys too.

@@ -71,16 +71,8 @@ impl Load {
         let stop = Stop::default();
         for number in 0.. {
             let seed = DaySeed::validation(2_001 + (client + 37 * number) % 900).expect("a seed");
-            let operation = Operation {
-                url: self.url.clone(),
-                day: Arc::new(network.draw(seed)),
-                time_zone: None,
-                policy: self.policy.clone(),
-                token: None,
-                trusted: None,
-                speed: None,
-                by_hand: false,
-            };
+            let day = Arc::new(network.draw(seed));
+            let operation = Operation::new(&self.url, day, &self.policy);
             let mut took_ms = Vec::new();
             let report = operate(&operation, &stop, |_, took| {
                 took_ms.push(took.as_secs_f64() * 1e3);

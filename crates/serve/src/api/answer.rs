@@ -37,6 +37,20 @@ impl Times {
         }
     }
 
+    /// Answers about a day at an event, once all events up to it are stored.
+    ///
+    /// # Errors
+    /// Returns the errors of [`of`](Self::of) and [`DayCell::stored_up_to`].
+    pub(super) async fn answer(
+        self,
+        day: &DayCell,
+        seq: u64,
+        answer: &(impl Serialize + Sync),
+    ) -> Result<Response, Error> {
+        day.stored_up_to(seq).await?;
+        self.of(day, || Ok(at_event(StatusCode::OK, seq, answer)))
+    }
+
     /// Checks that times can be written like this.
     ///
     /// # Errors

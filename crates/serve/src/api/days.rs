@@ -219,7 +219,7 @@ pub(super) async fn list(
     Validated(Listed { after, limit, progress }): Validated<Listed>,
 ) -> Result<Response, Error> {
     let PageSize(limit) = limit.unwrap_or(PageSize(100));
-    let stored = service.days.store().days(&after, limit).await?;
+    let stored = service.days.store.days(&after, limit).await?;
     let next = (stored.len() == limit as usize).then(|| stored[stored.len() - 1].id.clone());
     let mut days: Vec<_> = stored.iter().map(|day| DayInfo::of(day, None)).collect();
     if progress {
@@ -274,13 +274,13 @@ pub(super) async fn create(
     };
     let info = DayInfo::of(&stored, Some(0));
     let most = service.limits.days;
-    if service.days.store().number_of_days().await? >= most {
+    if service.days.store.number_of_days().await? >= most {
         return Err(Error::TooMuch { what: "days", most });
     }
     let (actor, id, _busy) = (writer.actor, stored.id.clone(), writer.busy);
     let answer = writer.idempotency.map(|asked| asked.answered_with(&info));
     service.days.add(stored, scenario, answer.as_ref()).await?;
-    service.days.store().record(&actor, "day made", &id, now_ms()).await?;
+    service.days.store.record(&actor, "day made", &id, now_ms()).await?;
     let mut answer = at_event(StatusCode::CREATED, 0, &info);
     let place = format!("/v1/days/{id}");
     let place = HeaderValue::from_str(&place).expect("an id has digits and letters");
@@ -313,7 +313,7 @@ pub(super) async fn archive(
     Named(day): Named<String>,
     writer: Writer,
 ) -> Result<StatusCode, Error> {
-    service.days.archive(&day, &writer).await?;
+    service.days.set_archived(&day, true, &writer).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -324,7 +324,7 @@ pub(super) async fn unarchive(
     Named(day): Named<String>,
     writer: Writer,
 ) -> Result<StatusCode, Error> {
-    service.days.unarchive(&day, &writer).await?;
+    service.days.set_archived(&day, false, &writer).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -366,8 +366,7 @@ pub(super) async fn state(
         None => DayState::of(&mut day.state()),
         Some(EventNumber(seq)) => DayState::of(&mut service.days.at(&actor, &day, seq).await?),
     };
-    day.stored_up_to(state.seq).await?;
-    at.times.of(&day, || Ok(at_event(StatusCode::OK, state.seq, &state)))
+    at.times.answer(&day, state.seq, &state).await
 }
 
 /// The routes from each vertiport that are closed, with the time at which each opens.

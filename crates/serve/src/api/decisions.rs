@@ -108,8 +108,7 @@ pub(super) async fn propose(
     let time = time.map_err(|rule| Error::BadRequest { rule })?;
     let question = Question { actor, aircraft, policy, time, deadline_ms };
     let proposal = proposed(&service, &day, question).await?;
-    day.stored_up_to(proposal.seq).await?;
-    times.of(&day, || Ok(at_event(StatusCode::OK, proposal.seq, &proposal)))
+    times.answer(&day, proposal.seq, &proposal).await
 }
 
 /// Takes a decision: the day's policy chooses, or the one that is named, or a person. It is durable when the answer
@@ -232,7 +231,7 @@ async fn proposed(
         Proposal { too_late: Some(policy), ..quick.await? }
     };
     let seconds = Duration::from_micros(proposal.took_us).as_secs_f64();
-    service.days.metrics().decided(&proposal.policy, seconds);
+    service.days.metrics.decided(&proposal.policy, seconds);
     Ok(proposal)
 }
 

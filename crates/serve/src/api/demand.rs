@@ -3,13 +3,12 @@
 use std::sync::Arc;
 
 use axum::extract::State;
-use axum::http::StatusCode;
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
 use vertifleet_core::VertiportIx;
 
-use super::answer::{Times, at_event};
+use super::answer::Times;
 use super::extract::{Named, Validated};
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
@@ -54,8 +53,7 @@ pub(super) async fn demand(
     let parse = |text: String| by_calendar(day.calendar(), || Moment::parse(&text));
     let period = asked.period.map(parse).transpose().map_err(|rule| Error::BadRequest { rule })?;
     let demand = PeriodDemand::of(&mut day.state(), period)?;
-    day.stored_up_to(demand.seq).await?;
-    asked.times.of(&day, || Ok(at_event(StatusCode::OK, demand.seq, &demand)))
+    asked.times.answer(&day, demand.seq, &demand).await
 }
 
 impl PeriodDemand {

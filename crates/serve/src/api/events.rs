@@ -161,7 +161,7 @@ pub(super) async fn list(
     let PageSize(limit) = limit.unwrap_or(PageSize(1_000));
     let day = service.days.get(&day).await?;
     day.check_begun(after)?;
-    let store = service.days.store().clone();
+    let store = service.days.store.clone();
     let page = async move {
         let page = store.events(day.id(), after, limit).await?;
         let next = page.events.last().filter(|_| !page.is_last).map(|event| event.seq);

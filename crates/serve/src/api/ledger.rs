@@ -3,14 +3,13 @@
 use std::sync::Arc;
 
 use axum::extract::State;
-use axum::http::StatusCode;
 use axum::response::Response;
 use serde::Serialize;
 use utoipa::ToSchema;
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::DayTotals;
 
-use super::answer::{Written, at_event};
+use super::answer::Written;
 use super::extract::{Named, Validated};
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
@@ -68,8 +67,7 @@ pub(super) async fn ledger(
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let ledger = Ledger::of(&mut day.state());
-    day.stored_up_to(ledger.seq).await?;
-    times.of(&day, || Ok(at_event(StatusCode::OK, ledger.seq, &ledger)))
+    times.answer(&day, ledger.seq, &ledger).await
 }
 
 impl Ledger {

@@ -84,7 +84,7 @@ pub(super) async fn measure(
     let begun = Instant::now();
     let answer = next.run(request).await;
     let (took, status) = (begun.elapsed(), answer.status());
-    service.days.metrics().answered(&method, path, status.as_u16(), took.as_secs_f64());
+    service.days.metrics.answered(&method, path, status.as_u16(), took.as_secs_f64());
     let code = answer.extensions().get::<Code>().map(Code::to_string);
     let trace = span.as_ref().map(|span| span.trace().to_string());
     let (status_number, took_us) = (status.as_u16(), took.as_micros());

@@ -35,7 +35,7 @@ pub(crate) struct NetworkList {
 /// Lists the networks from which days can be made.
 #[utoipa::path(operation_id = "list_networks", get, path = "/v1/networks", tag = "networks", responses((status = 200, body = NetworkList)))]
 pub(super) async fn list(State(service): State<Arc<Service>>) -> Result<Response, Error> {
-    let networks = networks::list(service.days.store()).await?;
+    let networks = networks::list(&service.days.store).await?;
     Ok(json(StatusCode::OK, &NetworkList { networks }))
 }
 
@@ -45,7 +45,7 @@ pub(super) async fn read(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
 ) -> Result<Response, Error> {
-    let (network, is_shipped) = networks::find(service.days.store(), &name).await?;
+    let (network, is_shipped) = networks::find(&service.days.store, &name).await?;
     let toml = Some(network.toml().to_owned());
     Ok(json(StatusCode::OK, &NetworkInfo { toml, ..NetworkInfo::of(&network, is_shipped) }))
 }
@@ -58,13 +58,13 @@ pub(super) async fn put(
     Actor(actor): Actor,
     Body(body): Body<UPLOAD>,
 ) -> Result<Response, Error> {
-    let (store, named) = (service.days.store().clone(), name.clone());
+    let (store, named) = (service.days.store.clone(), name.clone());
     let put = async move {
         let NewNetwork { toml } = parse(&body)?;
         networks::put(&store, &named, toml, now_ms()).await
     };
     let info = service.turns.readings.run(&actor, put).await?;
-    service.days.store().record(&actor, "network uploaded", &name, now_ms()).await?;
+    service.days.store.record(&actor, "network uploaded", &name, now_ms()).await?;
     Ok(json(StatusCode::OK, &info))
 }
 
@@ -75,10 +75,10 @@ pub(super) async fn delete(
     Named(name): Named<String>,
     Actor(actor): Actor,
 ) -> Result<StatusCode, Error> {
-    if !service.days.store().delete_network(&name).await? {
+    if !service.days.store.delete_network(&name).await? {
         return Err(Error::not_found("uploaded network", &name));
     }
-    service.days.store().record(&actor, "network deleted", &name, now_ms()).await?;
+    service.days.store.record(&actor, "network deleted", &name, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 

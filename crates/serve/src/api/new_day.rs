@@ -74,7 +74,7 @@ impl NewDay {
     ) -> Result<(Scenario, Option<String>), Error> {
         let (scenario, zone) = match (&self.network, &self.scenario) {
             (Some(network), None) => {
-                let (network, _) = networks::find(service.days.store(), network).await?;
+                let (network, _) = networks::find(&service.days.store, network).await?;
                 let seed = DaySeed::comparison(self.seed.unwrap_or(1))?;
                 (network.draw(seed), network.time_zone().map(str::to_owned))
             }

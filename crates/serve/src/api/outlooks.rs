@@ -10,7 +10,7 @@ use serde::Deserialize;
 use utoipa::IntoParams;
 use vertifleet_core::Stop;
 
-use super::answer::{Times, Written, at_event, json};
+use super::answer::{Times, Written, json};
 use super::decisions::QUICK_POLICY;
 use super::events::MOST_EVENTS;
 use super::extract::{Body, EventNumber, Named, Validated, parse};
@@ -59,8 +59,7 @@ pub(super) async fn outlook(
     let work =
         move |stop: &Stop| Outlook::in_time(&mut state, &policy, &quick, Patience { stop, until });
     let outlook = service.turns.outlooks.work(&actor, work).await?;
-    day.stored_up_to(outlook.seq).await?;
-    times.of(&day, || Ok(at_event(StatusCode::OK, outlook.seq, &outlook)))
+    times.answer(&day, outlook.seq, &outlook).await
 }
 
 /// When a policy that has not played the rest of a day is too late: a quick one then has as much time again.

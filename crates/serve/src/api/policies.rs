@@ -56,7 +56,7 @@ pub(super) async fn put(
     let (keeper, named) = (Arc::clone(&service), name.clone());
     let put = async move { keeper.policies.put(&named, &weights, now_ms()).await };
     let info = service.turns.readings.run(&actor, put).await?;
-    service.days.store().record(&actor, "policy uploaded", &name, now_ms()).await?;
+    service.days.store.record(&actor, "policy uploaded", &name, now_ms()).await?;
     Ok(json(StatusCode::OK, &info))
 }
 
@@ -67,10 +67,10 @@ pub(super) async fn delete(
     Named(name): Named<String>,
     Actor(actor): Actor,
 ) -> Result<StatusCode, Error> {
-    if !service.days.store().delete_policy(&name).await? {
+    if !service.days.store.delete_policy(&name).await? {
         return Err(Error::not_found("uploaded policy", &name));
     }
-    service.days.store().record(&actor, "policy deleted", &name, now_ms()).await?;
+    service.days.store.record(&actor, "policy deleted", &name, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 

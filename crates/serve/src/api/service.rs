@@ -57,7 +57,7 @@ pub(super) async fn readyz(State(service): State<Arc<Service>>) -> Result<&'stat
 #[utoipa::path(operation_id = "metrics", get, path = "/metrics", tag = "service", responses((status = 200, content_type = "application/openmetrics-text", body = String)))]
 pub(super) async fn metrics(State(service): State<Arc<Service>>) -> Response {
     let kind = "application/openmetrics-text; version=1.0.0; charset=utf-8";
-    ([(header::CONTENT_TYPE, kind)], service.days.metrics().text()).into_response()
+    ([(header::CONTENT_TYPE, kind)], service.days.metrics.text()).into_response()
 }
 
 /// This description.

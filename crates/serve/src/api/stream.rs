@@ -80,7 +80,7 @@ fn last_event(headers: &HeaderMap) -> Result<Option<EventMark>, Error> {
 
 impl Drop for Reader {
     fn drop(&mut self) {
-        self.service.days.metrics().streams.dec();
+        self.service.days.metrics.streams.dec();
     }
 }
 
@@ -97,7 +97,7 @@ pub(super) async fn stream(
     headers: HeaderMap,
 ) -> Result<Response, Error> {
     let most = service.limits.streams;
-    if service.days.metrics().streams.get() >= i64::try_from(most).unwrap_or(i64::MAX) {
+    if service.days.metrics.streams.get() >= i64::try_from(most).unwrap_or(i64::MAX) {
         return Err(Error::TooMuch { what: "streams", most: most as u64 });
     }
     let day = service.days.get(&day).await?;
@@ -106,9 +106,9 @@ pub(super) async fn stream(
     let after = last_event(&headers)?.unwrap_or(EventMark { seq, chain: None });
     service.days.check_mark(&day, after).await?;
     times.check(&day)?;
-    let store = service.days.store().clone();
+    let store = service.days.store.clone();
     let stopping = service.stopping.subscribe();
-    service.days.metrics().streams.inc();
+    service.days.metrics.streams.inc();
     let looked = Instant::now();
     let reader = Reader {
         day,

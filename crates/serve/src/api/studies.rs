@@ -47,7 +47,7 @@ pub(super) async fn create(
     }
     let turn = (&service.turns.outlooks, writer.actor.as_str());
     let asked = parse::<NewStudy>(&body)?;
-    let asked = asked.check(service.days.store(), &service.policies, turn).await?;
+    let asked = asked.check(&service.days.store, &service.policies, turn).await?;
     let study = service.studies.add(new_id(), writer.idempotency, asked)?;
     Ok(json(StatusCode::CREATED, &study))
 }

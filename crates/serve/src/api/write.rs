@@ -66,7 +66,7 @@ impl<const MOST: usize> Idempotent<MOST> {
         let own = format!("{}:{}:{key}", writer.actor.len(), writer.actor);
         let (busy, may_be_known) = service.keys.take(&own)?;
         let request = sum(parts.uri.path(), &body);
-        if may_be_known && let Some(known) = service.days.store().answer(&own).await? {
+        if may_be_known && let Some(known) = service.days.store.answer(&own).await? {
             if known.request != request {
                 return Err(Error::KeyReused { key: key.to_owned() });
             }

@@ -10,24 +10,17 @@ use crate::day_cell::DayCell;
 use crate::error::Error;
 
 impl Days {
-    /// Closes a day to writes. It may be closed already.
+    /// Closes a day to writes, or opens it again. It may be so already.
     ///
     /// # Errors
     /// Returns [`Error::NotFound`], [`Error::Moved`] if the day is at another event than the writer
     /// expects, and [`Error::Store`].
-    pub(crate) async fn archive(&self, id: &str, writer: &Writer) -> Result<(), Error> {
-        self.set_archived(id, true, writer).await
-    }
-
-    /// Opens a day again that was closed to writes. It may be open already.
-    ///
-    /// # Errors
-    /// Returns the errors of [`archive`](Self::archive).
-    pub(crate) async fn unarchive(&self, id: &str, writer: &Writer) -> Result<(), Error> {
-        self.set_archived(id, false, writer).await
-    }
-
-    async fn set_archived(&self, id: &str, archived: bool, writer: &Writer) -> Result<(), Error> {
+    pub(crate) async fn set_archived(
+        &self,
+        id: &str,
+        archived: bool,
+        writer: &Writer,
+    ) -> Result<(), Error> {
         let day = self.settled(id, writer).await?;
         self.store.set_archived(id, archived, writer.if_match, &writer.actor).await?;
         self.drop_from_memory(&day);
@@ -37,7 +30,7 @@ impl Days {
     /// Removes a day.
     ///
     /// # Errors
-    /// Returns the errors of [`archive`](Self::archive).
+    /// Returns the errors of [`set_archived`](Self::set_archived).
     pub(crate) async fn delete(&self, id: &str, writer: &Writer) -> Result<(), Error> {
         let day = self.settled(id, writer).await?;
         self.store.delete(id, writer.if_match, &writer.actor).await?;

@@ -47,40 +47,36 @@ impl Store {
         events: &[NewEvent<'_>],
         answers: &[&StoredAnswer],
     ) -> Result<(), Error> {
-        self.in_time(self.append_at_once(events, answers)).await
-    }
-
-    async fn append_at_once(
-        &self,
-        events: &[NewEvent<'_>],
-        answers: &[&StoredAnswer],
-    ) -> Result<(), Error> {
-        let mut transaction = self.pool.begin().await?;
-        let heads = self.move_heads(&mut transaction, events).await?;
-        // A statement has at most 32,766 parameters in SQLite.
-        for events in events.chunks(4_000) {
-            let sql = "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain, append_id) VALUES ";
-            let sql = sql.to_owned() + &self.places(events.len(), 8);
-            let mut insert = query(AssertSqlSafe(sql));
-            for NewEvent { day, append: AppendId(append), event } in events {
-                insert = insert
-                    .bind(*day)
-                    .bind(as_i64(event.seq))
-                    .bind(event.at_ms)
-                    .bind(&event.actor)
-                    .bind(&event.body)
-                    .bind(&event.notices)
-                    .bind(i64::from(event.chain))
-                    .bind(*append);
+        let append = async {
+            let mut transaction = self.pool.begin().await?;
+            let heads = self.move_heads(&mut transaction, events).await?;
+            // A statement has at most 32,766 parameters in SQLite.
+            for events in events.chunks(4_000) {
+                let sql = "INSERT INTO events (day, seq, at_ms, actor, body, notices, chain, append_id) VALUES ";
+                let sql = sql.to_owned() + &self.places(events.len(), 8);
+                let mut insert = query(AssertSqlSafe(sql));
+                for NewEvent { day, append: AppendId(append), event } in events {
+                    insert = insert
+                        .bind(*day)
+                        .bind(as_i64(event.seq))
+                        .bind(event.at_ms)
+                        .bind(&event.actor)
+                        .bind(&event.body)
+                        .bind(&event.notices)
+                        .bind(i64::from(event.chain))
+                        .bind(*append);
+                }
+                insert.execute(&mut *transaction).await?;
             }
-            insert.execute(&mut *transaction).await?;
-        }
-        let at_ms = events.first().map_or(0, |new| new.event.at_ms);
-        self.insert_answers(&mut transaction, answers, at_ms).await?;
-        let notice = |(day, seq): (&str, u64)| DayNotice { day: day.to_owned(), seq: Some(seq) };
-        let notices: Vec<DayNotice> = heads.into_iter().map(notice).collect();
-        self.notify(&mut transaction, &notices).await?;
-        Ok(transaction.commit().await?)
+            let at_ms = events.first().map_or(0, |new| new.event.at_ms);
+            self.insert_answers(&mut transaction, answers, at_ms).await?;
+            let notice =
+                |(day, seq): (&str, u64)| DayNotice { day: day.to_owned(), seq: Some(seq) };
+            let notices: Vec<DayNotice> = heads.into_iter().map(notice).collect();
+            self.notify(&mut transaction, &notices).await?;
+            Ok::<_, Error>(transaction.commit().await?)
+        };
+        self.in_time(append).await
     }
 
     pub(super) async fn insert_answers(

@@ -36,7 +36,7 @@ impl Store {
     /// The head of a day; `None` if there is no such day.
     pub(crate) async fn head(&self, day: &str) -> Result<Option<Head>, Error> {
         let select = "SELECT id, seq, chain, archived FROM days WHERE id = $1";
-        let select = query(select).bind(day).fetch_optional(self.pool());
+        let select = query(select).bind(day).fetch_optional(&self.pool);
         let row = self.in_time(select).await?;
         row.map(|row| head(&row).map(|(_, head)| head)).transpose()
     }
@@ -49,7 +49,7 @@ impl Store {
             let places = self.places(1, days.len());
             let select = format!("SELECT id, seq, chain, archived FROM days WHERE id IN {places}");
             let select = days.iter().fold(query(AssertSqlSafe(select)), Query::bind);
-            let select = select.fetch_all(self.pool());
+            let select = select.fetch_all(&self.pool);
             for row in self.in_time(select).await? {
                 heads.extend(head(&row));
             }
@@ -61,7 +61,7 @@ impl Store {
     pub(crate) async fn chain_at(&self, day: &str, seq: u64) -> Result<Option<u32>, Error> {
         let select = "SELECT chain FROM events WHERE day = $1 AND seq = $2";
         let select = query_scalar(select).bind(day).bind(as_i64(seq));
-        let select = select.fetch_optional(self.pool());
+        let select = select.fetch_optional(&self.pool);
         let chain: Option<i64> = self.in_time(select).await?;
         Ok(chain.and_then(|chain| u32::try_from(chain).ok()))
     }
@@ -73,7 +73,7 @@ impl Store {
              UNION SELECT target FROM audit WHERE action = 'day made'
              AND target NOT IN (SELECT id FROM days)
              AND target NOT IN (SELECT target FROM audit WHERE action = 'day deleted')";
-        Ok(query_scalar(select).fetch_all(self.pool()).await?)
+        Ok(query_scalar(select).fetch_all(&self.pool).await?)
     }
 
     /// Moves the heads of days to the last of the events that a transaction adds, and locks the

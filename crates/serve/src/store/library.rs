@@ -8,8 +8,7 @@
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use sqlx::any::AnyRow;
-use sqlx::{AnyConnection, Row as _, query, query_scalar};
+use sqlx::{AnyConnection, query, query_as, query_scalar};
 
 use super::Store;
 use crate::error::Error;
@@ -88,9 +87,13 @@ impl Store {
                  WHERE length(one.weights) > 0 ORDER BY one.name"
             }
         };
-        let select = query(select).bind(kind.name()).bind(PROGRAM);
-        let rows = select.fetch_all(self.pool()).await?;
-        rows.iter().map(uploaded).collect()
+        let select = query_as(select).bind(kind.name()).bind(PROGRAM);
+        let rows: Vec<(String, i64, Option<String>)> = select.fetch_all(&self.pool).await?;
+        let uploaded = |(name, created_ms, description): (_, _, Option<String>)| {
+            let description = description.and_then(|text| serde_json::from_str(&text).ok());
+            Uploaded { name, created_ms, description }
+        };
+        Ok(rows.into_iter().map(uploaded).collect())
     }
 
     /// The number of uploads of a kind with other names.
@@ -101,7 +104,7 @@ impl Store {
                 "SELECT COUNT(*) FROM policies WHERE name <> $1 AND length(weights) > 0"
             }
         };
-        let count: i64 = query_scalar(select).bind(name).fetch_one(self.pool()).await?;
+        let count: i64 = query_scalar(select).bind(name).fetch_one(&self.pool).await?;
         Ok(usize::try_from(count).unwrap_or_default())
     }
 
@@ -113,7 +116,7 @@ impl Store {
         created_ms: i64,
         description: &impl Serialize,
     ) -> Result<(), Error> {
-        let mut connection = self.pool().acquire().await?;
+        let mut connection = self.pool.acquire().await?;
         describe(&mut connection, kind, name, created_ms, description).await
     }
 
@@ -124,7 +127,7 @@ impl Store {
         description: &impl Serialize,
     ) -> Result<(), Error> {
         let StoredNetwork { name, toml, created_ms } = network;
-        let mut transaction = self.pool().begin().await?;
+        let mut transaction = self.pool.begin().await?;
         query(
             "INSERT INTO networks (name, toml, created_ms) VALUES ($1, $2, $3)
              ON CONFLICT (name) DO UPDATE SET toml = excluded.toml, created_ms = excluded.created_ms",
@@ -141,14 +144,14 @@ impl Store {
     /// The network with a name.
     pub(crate) async fn network(&self, name: &str) -> Result<Option<StoredNetwork>, Error> {
         let select = "SELECT name, toml, created_ms FROM networks WHERE name = $1";
-        let row = query(select).bind(name).fetch_optional(self.pool()).await?;
-        row.as_ref().map(stored_network).transpose()
+        let row = query_as(select).bind(name).fetch_optional(&self.pool).await?;
+        Ok(row.map(|(name, toml, created_ms)| StoredNetwork { name, toml, created_ms }))
     }
 
     /// Removes a network. Returns whether there was one.
     pub(crate) async fn delete_network(&self, name: &str) -> Result<bool, Error> {
         let delete = query("DELETE FROM networks WHERE name = $1").bind(name);
-        let is_deleted = delete.execute(self.pool()).await?.rows_affected() > 0;
+        let is_deleted = delete.execute(&self.pool).await?.rows_affected() > 0;
         self.forget_descriptions(Kind::Network, name).await?;
         Ok(is_deleted)
     }
@@ -168,24 +171,25 @@ impl Store {
         .bind(weights)
         .bind(&policy.sha256)
         .bind(policy.created_ms)
-        .execute(self.pool())
+        .execute(&self.pool)
         .await?;
         let select = "SELECT name, sha256, created_ms FROM policies WHERE name = $1";
-        stored_policy(&query(select).bind(&policy.name).fetch_one(self.pool()).await?)
+        let row = query_as(select).bind(&policy.name).fetch_one(&self.pool).await?;
+        Ok(stored_policy(row))
     }
 
     /// The policy with a name.
     pub(crate) async fn policy(&self, name: &str) -> Result<Option<StoredPolicy>, Error> {
         let select = "SELECT name, sha256, created_ms FROM policies
              WHERE name = $1 AND length(weights) > 0";
-        let row = query(select).bind(name).fetch_optional(self.pool()).await?;
-        row.as_ref().map(stored_policy).transpose()
+        let row = query_as(select).bind(name).fetch_optional(&self.pool).await?;
+        Ok(row.map(stored_policy))
     }
 
     /// The weight file of a policy.
     pub(crate) async fn weights(&self, name: &str) -> Result<Option<Vec<u8>>, Error> {
         let select = "SELECT weights FROM policies WHERE name = $1 AND length(weights) > 0";
-        Ok(query_scalar(select).bind(name).fetch_optional(self.pool()).await?)
+        Ok(query_scalar(select).bind(name).fetch_optional(&self.pool).await?)
     }
 
     /// Removes the weights of a policy. Its name goes on to mean them, since logs of days name it.
@@ -195,13 +199,13 @@ impl Store {
     /// Returns [`Error::PolicyInUse`] if it decides on days that are not archived.
     pub(crate) async fn delete_policy(&self, name: &str) -> Result<bool, Error> {
         let select = "SELECT COUNT(*) FROM days WHERE policy = $1 AND archived = 0";
-        let days: i64 = query_scalar(select).bind(name).fetch_one(self.pool()).await?;
+        let days: i64 = query_scalar(select).bind(name).fetch_one(&self.pool).await?;
         if days > 0 {
             return Err(Error::PolicyInUse { name: name.to_owned(), days });
         }
         let delete = "UPDATE policies SET weights = $2 WHERE name = $1 AND length(weights) > 0";
         let delete = query(delete).bind(name).bind(&[][..] as &[u8]);
-        let is_deleted = delete.execute(self.pool()).await?.rows_affected() > 0;
+        let is_deleted = delete.execute(&self.pool).await?.rows_affected() > 0;
         self.forget_descriptions(Kind::Policy, name).await?;
         Ok(is_deleted)
     }
@@ -209,7 +213,7 @@ impl Store {
     /// Makes room: what is said of something that is not there is never read.
     async fn forget_descriptions(&self, kind: Kind, name: &str) -> Result<(), Error> {
         let delete = "DELETE FROM descriptions WHERE kind = $1 AND name = $2";
-        query(delete).bind(kind.name()).bind(name).execute(self.pool()).await?;
+        query(delete).bind(kind.name()).bind(name).execute(&self.pool).await?;
         Ok(())
     }
 }
@@ -238,27 +242,6 @@ async fn describe(
     Ok(())
 }
 
-fn uploaded<T: DeserializeOwned>(row: &AnyRow) -> Result<Uploaded<T>, Error> {
-    let description: Option<String> = row.try_get("description")?;
-    Ok(Uploaded {
-        name: row.try_get("name")?,
-        created_ms: row.try_get("created_ms")?,
-        description: description.and_then(|text| serde_json::from_str(&text).ok()),
-    })
-}
-
-fn stored_network(row: &AnyRow) -> Result<StoredNetwork, Error> {
-    Ok(StoredNetwork {
-        name: row.try_get("name")?,
-        toml: row.try_get("toml")?,
-        created_ms: row.try_get("created_ms")?,
-    })
-}
-
-fn stored_policy(row: &AnyRow) -> Result<StoredPolicy, Error> {
-    Ok(StoredPolicy {
-        name: row.try_get("name")?,
-        sha256: row.try_get("sha256")?,
-        created_ms: row.try_get("created_ms")?,
-    })
+fn stored_policy((name, sha256, created_ms): (String, String, i64)) -> StoredPolicy {
+    StoredPolicy { name, sha256, created_ms }
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 use sqlx::any::AnyRow;
-use sqlx::{AnyConnection, Row as _, query};
+use sqlx::{AnyConnection, Row as _, query, query_as};
 
 use super::Store;
 use crate::error::Error;
@@ -34,7 +34,7 @@ impl Store {
         .bind(token.role.name())
         .bind(&token.hash)
         .bind(token.created_ms)
-        .execute(self.pool())
+        .execute(&self.pool)
         .await?;
         Ok(())
     }
@@ -42,7 +42,7 @@ impl Store {
     /// All tokens, those that were revoked among them.
     pub(crate) async fn tokens(&self) -> Result<Vec<StoredToken>, Error> {
         let select = "SELECT id, name, role, hash, created_ms, revoked_ms FROM tokens ORDER BY created_ms, id";
-        let select = query(select).fetch_all(self.pool());
+        let select = query(select).fetch_all(&self.pool);
         let rows = self.in_time(select).await?;
         rows.iter().map(stored_token).collect()
     }
@@ -50,14 +50,15 @@ impl Store {
     /// Who did what beside the events of days, in its order.
     pub(crate) async fn audit(&self) -> Result<Vec<AuditRecord>, Error> {
         let select = "SELECT at_ms, actor, action, target FROM audit ORDER BY at_ms";
-        let rows = query(select).fetch_all(self.pool()).await?;
-        rows.iter().map(audit_record).collect()
+        let rows = query_as(select).fetch_all(&self.pool).await?;
+        let record = |(at_ms, actor, action, target)| AuditRecord { at_ms, actor, action, target };
+        Ok(rows.into_iter().map(record).collect())
     }
 
     /// Revokes a token. Returns whether there was such a token in force.
     pub(crate) async fn revoke_token(&self, id: &str, now_ms: i64) -> Result<bool, Error> {
         let update = "UPDATE tokens SET revoked_ms = $2 WHERE id = $1 AND revoked_ms = 0";
-        let done = query(update).bind(id).bind(now_ms).execute(self.pool()).await?;
+        let done = query(update).bind(id).bind(now_ms).execute(&self.pool).await?;
         Ok(done.rows_affected() > 0)
     }
 
@@ -69,7 +70,7 @@ impl Store {
         target: &str,
         at_ms: i64,
     ) -> Result<(), Error> {
-        let mut connection = self.pool().acquire().await?;
+        let mut connection = self.pool.acquire().await?;
         record(&mut connection, actor, action, target, at_ms).await
     }
 }
@@ -90,15 +91,6 @@ pub(super) async fn record(
         .execute(connection)
         .await?;
     Ok(())
-}
-
-fn audit_record(row: &AnyRow) -> Result<AuditRecord, Error> {
-    Ok(AuditRecord {
-        at_ms: row.try_get("at_ms")?,
-        actor: row.try_get("actor")?,
-        action: row.try_get("action")?,
-        target: row.try_get("target")?,
-    })
 }
 
 fn stored_token(row: &AnyRow) -> Result<StoredToken, Error> {

@@ -43,16 +43,10 @@ pub(super) fn run(arguments: &ServeArguments) -> Result<(), Failure> {
 fn operate_days(address: SocketAddr, stop: &Stop) -> Result<(), Failure> {
     let network = Network::shipped("new-york").expect("a shipped network");
     for seed in 1.. {
-        let operation = Operation {
-            url: format!("http://{address}"),
-            day: Arc::new(network.draw(DaySeed::comparison(seed)?)),
-            time_zone: network.time_zone().map(str::to_owned),
-            policy: "gcaps-x".to_owned(),
-            token: None,
-            trusted: None,
-            speed: Some(SPEED),
-            by_hand: false,
-        };
+        let day = Arc::new(network.draw(DaySeed::comparison(seed)?));
+        let time_zone = network.time_zone().map(str::to_owned);
+        let operation = Operation::new(&format!("http://{address}"), day, "gcaps-x");
+        let operation = Operation { time_zone, speed: Some(SPEED), ..operation };
         match operate(&operation, stop, |_, _| ()) {
             Ok(Some(_)) => {}
             Ok(None) => break,
