@@ -7,16 +7,15 @@ use serde_json::{Value, json};
 use vertifleet_core::{Coded as _, Stop};
 use vertifleet_serve::{Location, Protection, Role, Settings, Tokens};
 
-use crate::running::{Running, settings_for};
+use crate::running::{Running, bearers, folder, settings_for};
 
 pub(crate) fn text<'a>(value: &'a Value, name: &str) -> &'a str {
     value[name].as_str().unwrap_or_else(|| panic!("no text {name:?} in {value}"))
 }
 
 pub(crate) fn service() -> (tempfile::TempDir, Running) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
-    (folder, service)
+    let (folder, location) = folder();
+    (folder, Running::start_at(location))
 }
 
 #[test]
@@ -74,7 +73,7 @@ fn a_request_with_a_key_is_carried_out_once() {
     assert_eq!(first.json, again.json);
     assert_eq!(service.get(&day).json["seq"], 1);
     let other = service.send("POST", &path, &key, booked(3).as_bytes());
-    assert_eq!((other.status, text(&other.json, "code")), (422, "V609"));
+    assert_eq!(other.problem(), (422, "V609"));
     let decided = service.send("POST", &format!("{day}/decisions"), &key, b"{}");
     assert_eq!(text(&decided.json, "code"), "V609");
 }
@@ -89,10 +88,10 @@ fn of_two_dispatchers_one_decides() {
     let first = decide("\"0\"");
     assert_eq!((first.status, first.tag.as_str()), (201, "\"1\""));
     let second = decide("\"0\"");
-    assert_eq!((second.status, text(&second.json, "code")), (412, "V605"));
+    assert_eq!(second.problem(), (412, "V605"));
     // Without If-Match, the rules still forbid that an aircraft decides twice.
     let third = service.post(&path, &json!({"aircraft": "A01"}));
-    assert_eq!((third.status, text(&third.json, "code")), (422, "V604"));
+    assert_eq!(third.problem(), (422, "V604"));
 }
 
 #[test]
@@ -101,13 +100,15 @@ fn several_events_are_taken_all_or_none() {
     let day = service.new_day("greedy");
     let good = json!({"type": "out_of_service", "aircraft": "A02", "until": 30_000});
     let bad = json!({"type": "landed", "aircraft": "A03"});
-    let refused = service.post(&format!("{day}/events"), &json!([good, bad]));
-    assert_eq!((refused.status, text(&refused.json, "code")), (422, "V604"));
-    assert!(text(&refused.json, "detail").contains("stands at its vertiport"), "{refused:?}");
+    let refused = service.event(&day, &json!([good, bad]));
+    assert_eq!(refused.problem(), (422, "V604"));
+    let detail = text(&refused.json, "detail");
+    assert!(detail.starts_with("event 2 of 2: "), "{detail}");
+    assert!(detail.contains("stands at its vertiport"), "{detail}");
     assert_eq!(service.get(&day).json["seq"], 0);
-    let taken = service.post(&format!("{day}/events"), &json!([good, good]));
+    let taken = service.event(&day, &json!([good, good]));
     assert_eq!((taken.status, &taken.json["seq"]), (201, &json!(2)));
-    let state = service.get(&format!("{day}/state")).json;
+    let state = service.state(&day);
     assert_eq!(state["aircraft"][1]["out_of_service"], true);
     assert_eq!(state["aircraft"][1]["ready"], "08:20:00");
 }
@@ -117,12 +118,12 @@ fn what_reality_forces_is_taken_with_a_notice_that_stays() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let fewer = json!({"type": "stands", "vertiport": "V1", "stands": 0});
-    let taken = service.post(&format!("{day}/events"), &fewer).json;
+    let taken = service.event(&day, &fewer).json;
     assert!(
         taken["notices"][0][0].as_str().is_some_and(|text| text.contains("0 stands")),
         "{taken}"
     );
-    let state = service.get(&format!("{day}/state")).json;
+    let state = service.state(&day);
     assert_eq!(state["notices"].as_array().map(Vec::len), Some(2), "with its event, and now");
     // No aircraft can fly there, and the reason has the numbers.
     let proposal = service.get(&format!("{day}/aircraft/A40/decision")).json;
@@ -134,20 +135,16 @@ fn what_reality_forces_is_taken_with_a_notice_that_stays() {
 
 #[test]
 fn a_day_is_the_same_after_a_restart_and_can_be_read_at_any_event() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
+    let (folder, service) = service();
     let day = service.new_day("greedy");
-    let mut states = vec![service.get(&format!("{day}/state")).json];
+    let mut states = vec![service.state(&day)];
     for aircraft in ["A01", "A02", "A03"] {
-        assert_eq!(
-            service.post(&format!("{day}/decisions"), &json!({"aircraft": aircraft})).status,
-            201
-        );
-        states.push(service.get(&format!("{day}/state")).json);
+        assert_eq!(service.decide(&day, &json!({"aircraft": aircraft})).status, 201);
+        states.push(service.state(&day));
     }
     drop(service);
     let service = Running::start(folder.path());
-    assert_eq!(service.get(&format!("{day}/state")).json, states[3]);
+    assert_eq!(service.state(&day), states[3]);
     for (seq, state) in states.iter().enumerate() {
         assert_eq!(&service.get(&format!("{day}/state?seq={seq}")).json, state);
     }
@@ -160,8 +157,7 @@ fn a_day_is_the_same_after_a_restart_and_can_be_read_at_any_event() {
 fn the_stream_goes_on_where_a_reader_left() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
-    let decide =
-        |aircraft: &str| service.post(&format!("{day}/decisions"), &json!({"aircraft": aircraft}));
+    let decide = |aircraft: &str| service.decide(&day, &json!({"aircraft": aircraft}));
     assert_eq!((decide("A01").status, decide("A02").status), (201, 201));
     let request = ureq::get(format!("{}{day}/stream", service.url)).header("last-event-id", "1");
     let mut answer = request.call().expect("a stream");
@@ -172,18 +168,6 @@ fn the_stream_goes_on_where_a_reader_left() {
     assert!(next().is_some_and(|data| data.contains("\"aircraft\":\"A02\"")));
     assert_eq!(decide("A03").status, 201);
     assert_eq!(next().as_deref(), Some("id: 3"));
-}
-
-#[test]
-fn an_archived_day_is_read_only_and_a_deleted_one_is_gone() {
-    let (_folder, service) = service();
-    let day = service.new_day("greedy");
-    assert_eq!(service.send("POST", &format!("{day}/archive"), &[], b"").status, 204);
-    let refused = service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"}));
-    assert_eq!((refused.status, text(&refused.json, "code")), (409, "V608"));
-    assert_eq!(service.get(&day).json["archived"], true);
-    assert_eq!(service.send("DELETE", &day, &[], b"").status, 204);
-    assert_eq!(text(&service.get(&day).json, "code"), "V602");
 }
 
 #[test]
@@ -284,7 +268,7 @@ fn tokens_say_who_may_do_what_and_who_did_it() {
 fn the_service_measures_itself() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
-    assert_eq!(service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"})).status, 201);
+    assert_eq!(service.decide(&day, &json!({"aircraft": "A01"})).status, 201);
     let text = service.get("/metrics").json;
     let text = text.as_str().expect("no JSON");
     for line in [
@@ -325,8 +309,8 @@ fn a_slip_of_the_pen_does_not_move_the_clock() {
     let events = format!("{day}/events");
     let ready = json!({"type": "ready", "aircraft": "A01", "time": "17:10:00"});
     let refused = service.post(&events, &ready);
-    assert_eq!((refused.status, text(&refused.json, "code")), (422, "V604"));
-    assert_eq!(service.get(&format!("{day}/state")).json["now"], "06:00:00");
+    assert_eq!(refused.problem(), (422, "V604"));
+    assert_eq!(service.state(&day)["now"], "06:00:00");
     let back = json!({"type": "delayed", "aircraft": "A01", "until": "05:00:00"});
     assert_eq!(service.post(&events, &back).status, 422);
     assert_eq!(service.post(&events, &json!({"type": "clock", "time": "17:00:00"})).status, 201);
@@ -337,14 +321,9 @@ fn a_slip_of_the_pen_does_not_move_the_clock() {
 fn an_aircraft_that_is_not_reported_is_overdue() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
-    assert_eq!(service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"})).status, 201);
-    assert_eq!(
-        service
-            .post(&format!("{day}/events"), &json!({"type": "clock", "time": "06:30:00"}))
-            .status,
-        201
-    );
-    let notices = service.get(&format!("{day}/state")).json["notices"].clone();
+    assert_eq!(service.decide(&day, &json!({"aircraft": "A01"})).status, 201);
+    assert_eq!(service.event(&day, &json!({"type": "clock", "time": "06:30:00"})).status, 201);
+    let notices = service.state(&day)["notices"].clone();
     assert!(
         notices[0]["text"]
             .as_str()
@@ -380,10 +359,8 @@ fn an_answer_that_comes_again_has_its_headers_again() {
 
 #[test]
 fn each_token_has_keys_of_its_own_and_is_told_what_it_may_do() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let location = Location::Folder(folder.path().to_owned());
-    let tokens = Tokens::open(&location).expect("a store");
-    let token = |name: &str, role| format!("Bearer {}", tokens.make(name, role).expect("a token"));
+    let (_folder, location) = folder();
+    let token = bearers(&location);
     let (one, two) = (token("one", Role::Dispatch), token("two", Role::Admin));
     let service = Running::start_at(location);
     let info = |bearer: &str| service.send("GET", "/v1", &[("authorization", bearer)], b"").json;
@@ -402,7 +379,7 @@ fn each_token_has_keys_of_its_own_and_is_told_what_it_may_do() {
 fn the_dashboard_and_the_alerts_ask_for_what_is_measured() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
-    service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"}));
+    service.decide(&day, &json!({"aircraft": "A01"}));
     let measured = service.get("/metrics").json;
     let measured = measured.as_str().expect("a text");
     for file in ["grafana.json", "alerts.yml"] {
@@ -429,7 +406,7 @@ fn no_client_says_that_a_policy_decided_and_no_member_is_there_twice() {
         r#"{"type": "clock", "time": "06:00:00", "time": "07:00:00"}"#,
     ] {
         let refused = service.send("POST", &path, &[], event.as_bytes());
-        assert_eq!((refused.status, text(&refused.json, "code")), (400, "V601"), "{event}");
+        assert_eq!(refused.problem(), (400, "V601"), "{event}");
     }
     for asked in ["state?foo=1", "events?aftr=1", "stream?aftr=1", "ledger?seq=1"] {
         assert_eq!(service.get(&format!("{day}/{asked}")).status, 400, "{asked}");
@@ -441,7 +418,7 @@ fn no_client_says_that_a_policy_decided_and_no_member_is_there_twice() {
 fn what_lies_in_the_past_is_refused_and_what_the_rules_forbid_has_a_notice() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
-    let report = |event: Value| service.post(&format!("{day}/events"), &event);
+    let report = |event: Value| service.event(&day, &event);
     let notice = |answer: &crate::running::Answer| {
         answer.json["notices"][0][0].as_str().unwrap_or_default().to_owned()
     };
@@ -453,10 +430,10 @@ fn what_lies_in_the_past_is_refused_and_what_the_rules_forbid_has_a_notice() {
         json!({"type": "charging", "aircraft": "A09", "ready": "06:00:00"}),
     ] {
         let refused = report(past);
-        assert_eq!((refused.status, text(&refused.json, "code")), (422, "V604"), "{refused:?}");
+        assert_eq!(refused.problem(), (422, "V604"), "{refused:?}");
     }
 
-    let state = service.get(&format!("{day}/state")).json;
+    let state = service.state(&day);
     let to = if state["aircraft"][2]["place"] == "V1" { "V2" } else { "V1" };
     let departed = |aircraft: &str, time: &str| {
         report(json!({"type": "departed", "aircraft": aircraft, "to": to, "time": time}))
@@ -467,7 +444,7 @@ fn what_lies_in_the_past_is_refused_and_what_the_rules_forbid_has_a_notice() {
     assert!(text(&early.json, "detail").contains("departed at 09:10:00"), "{early:?}");
     let charging = json!({"type": "charging", "aircraft": "A04", "ready": "09:40:00"});
     assert_eq!(report(charging).status, 201);
-    let at = service.get(&format!("{day}/state")).json["aircraft"][3]["place"].clone();
+    let at = service.state(&day)["aircraft"][3]["place"].clone();
     let elsewhere = if at == "V3" { "V4" } else { "V3" };
     let left = report(json!({"type": "departed", "aircraft": "A04", "to": elsewhere}));
     assert!(notice(&left).contains("not ready before 09:40:00"), "{left:?}");
@@ -478,11 +455,11 @@ fn the_ledger_adds_up_to_the_totals() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     for aircraft in ["A01", "A02", "A03"] {
-        let taken = service.post(&format!("{day}/decisions"), &json!({"aircraft": aircraft}));
+        let taken = service.decide(&day, &json!({"aircraft": aircraft}));
         assert_eq!(taken.status, 201);
     }
     let landed = json!({"type": "landed", "aircraft": "A01", "time": "06:50:00"});
-    assert_eq!(service.post(&format!("{day}/events"), &landed).status, 201);
+    assert_eq!(service.event(&day, &landed).status, 201);
     let ledger = service.get(&format!("{day}/ledger")).json;
     let flights = ledger["flights"].as_array().expect("a list");
     assert_eq!(
@@ -492,5 +469,5 @@ fn the_ledger_adds_up_to_the_totals() {
     let sum: f64 = flights.iter().map(|one| one["profit_usd"].as_f64().expect("dollars")).sum();
     let total = ledger["totals"]["profit_usd"].as_f64().expect("dollars");
     assert!((sum - total).abs() < 0.01 && total > 0.0, "{ledger}");
-    assert_eq!(ledger["totals"], service.get(&format!("{day}/state")).json["totals"]);
+    assert_eq!(ledger["totals"], service.state(&day)["totals"]);
 }

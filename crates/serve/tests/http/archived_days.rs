@@ -6,13 +6,13 @@ use std::thread;
 use std::time::Duration;
 
 use serde_json::{Value, json};
-use vertifleet_serve::{Location, Role, Tokens};
+use vertifleet_serve::{Location, Role};
 
 use crate::api::service;
-use crate::running::{Answer, Running};
+use crate::running::{Answer, Running, bearers, folder};
 
 fn clock(service: &Running, day: &str) -> Answer {
-    service.post(&format!("{day}/events"), &json!({"type": "clock"}))
+    service.event(day, &json!({"type": "clock"}))
 }
 
 fn change(service: &Running, method: &str, path: &str, if_match: &str) -> (u16, Value) {
@@ -66,7 +66,7 @@ fn an_archived_day_goes_on_where_it_was_when_it_is_opened_again() {
     assert_eq!(next(), 1);
     assert_eq!(change(&service, "POST", &format!("{day}/archive"), "").0, 204);
     let refused = clock(&service, &day);
-    assert_eq!((refused.status, &refused.json["code"]), (409, &json!("V608")));
+    assert_eq!(refused.problem(), (409, "V608"));
     assert!(refused.json["hint"].as_str().is_some_and(|hint| hint.contains("/unarchive")));
     for _ in 0..2 {
         assert_eq!(change(&service, "POST", &format!("{day}/unarchive"), "1").0, 204);
@@ -121,20 +121,17 @@ fn nothing_is_written_to_a_day_after_it_was_archived() {
 
 #[test]
 fn only_admins_open_days_again() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let location = Location::Folder(folder.path().to_owned());
-    let tokens = Tokens::open(&location).expect("a store");
-    let token = |role: Role| format!("Bearer {}", tokens.make(role.name(), role).expect("a token"));
-    let (dispatch, admin) = (token(Role::Dispatch), token(Role::Admin));
+    let (_folder, location) = folder();
+    let token = bearers(&location);
+    let (dispatch, admin) = (token("one", Role::Dispatch), token("two", Role::Admin));
     let service = Running::start_at(location);
     let send = |bearer: &str, path: &str| {
         service.send("POST", path, &[("authorization", bearer)], br#"{"network": "paper"}"#)
     };
-    let made = send(&dispatch, "/v1/days");
-    let day = format!("/v1/days/{}", made.json["id"].as_str().expect("an id"));
+    let day = send(&dispatch, "/v1/days").made("/v1/days");
     for path in [format!("{day}/archive"), format!("{day}/unarchive")] {
         let refused = send(&dispatch, &path);
-        assert_eq!((refused.status, &refused.json["code"]), (403, &json!("V618")), "{path}");
+        assert_eq!(refused.problem(), (403, "V618"), "{path}");
         assert_eq!(send(&admin, &path).status, 204, "{path}");
     }
 }

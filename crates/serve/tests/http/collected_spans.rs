@@ -11,9 +11,9 @@ use opentelemetry_proto::tonic::trace::v1::{Span, span::SpanKind, status::Status
 use prost::Message as _;
 use serde_json::json;
 use vertifleet_core::{Coded as _, Stop};
-use vertifleet_serve::{Location, Role, Settings, Tokens, serve};
+use vertifleet_serve::{Role, Settings, serve};
 
-use crate::running::{Running, settings_for};
+use crate::running::{Running, bearers, folder, settings_for};
 
 /// The trace of a caller and its own span.
 const TRACE: &str = "0af7651916cd43dd8448eb211c80319c";
@@ -63,8 +63,7 @@ fn batch(socket: &mut BufReader<std::net::TcpStream>) -> Option<(String, Vec<u8>
 }
 
 fn observed(collector: String) -> (tempfile::TempDir, Running) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let location = Location::Folder(folder.path().to_owned());
+    let (folder, location) = folder();
     let service =
         Running::start_as(Settings { collector: Some(collector), ..settings_for(location) });
     (folder, service)
@@ -86,10 +85,8 @@ fn hexadecimal(bytes: &[u8]) -> String {
 #[test]
 fn requests_become_spans_within_the_traces_of_their_callers() {
     let (address, batches) = collector();
-    let folder = tempfile::tempdir().expect("a folder");
-    let location = Location::Folder(folder.path().to_owned());
-    let token = Tokens::open(&location).expect("a store").make("console", Role::Dispatch);
-    let bearer = format!("Bearer {}", token.expect("a token"));
+    let (_folder, location) = folder();
+    let bearer = bearers(&location)("console", Role::Dispatch);
     let service = Running::start_as(Settings {
         // A slash at the end is no part of the address.
         collector: Some(format!("{address}/")),
@@ -175,8 +172,7 @@ fn a_collector_that_has_gone_holds_up_no_request() {
 
 #[test]
 fn a_collector_is_an_address_of_http() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let location = Location::Folder(folder.path().to_owned());
+    let (_folder, location) = folder();
     for address in ["127.0.0.1:4318", "grpc://127.0.0.1:4317", "http://", "http://a b"] {
         let settings =
             Settings { collector: Some(address.to_owned()), ..settings_for(location.clone()) };

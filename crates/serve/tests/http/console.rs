@@ -3,12 +3,12 @@
 use vertifleet_core::{Coded as _, Stop};
 use vertifleet_serve::{Location, Role, Settings, Tokens, serve};
 
-use crate::running::{Running, settings_for};
+use crate::api::service;
+use crate::running::{Running, folder, settings_for};
 
 #[test]
 fn the_console_needs_no_token_and_its_data_does() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let location = Location::Folder(folder.path().to_owned());
+    let (_folder, location) = folder();
     let token = Tokens::open(&location).expect("a store").make("screen", Role::Read);
     token.expect("a token");
     let service = Running::start_at(location);
@@ -29,8 +29,7 @@ fn the_console_needs_no_token_and_its_data_does() {
 
 #[test]
 fn the_policy_of_the_console_is_the_one_that_it_is_tested_under() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
+    let (_folder, service) = service();
     let page = ureq::get(&service.url).call().expect("the page");
     let sent = page.headers()["content-security-policy"].to_str().expect("text");
     let source = include_str!("../../../../web/security.ts");

@@ -132,10 +132,10 @@ fn a_day_has_the_forecast_the_places_and_the_date_that_it_is_given() {
     let state = service.get(&format!("{day}/state?times=iso")).json;
     assert_eq!(state["aircraft"][0]["place"], "JRA");
     assert_eq!(state["now"], "2026-11-23T06:00:00-05:00");
-    assert_eq!(service.get(&format!("{day}/state")).json["now"], "06:00:00");
+    assert_eq!(service.state(&day)["now"], "06:00:00");
 
     let event = json!({"type": "clock", "time": "2026-11-23T12:10:00Z"});
-    assert_eq!(service.post(&format!("{day}/events"), &event).status, 201);
+    assert_eq!(service.event(&day, &event).status, 201);
     let events = service.get(&format!("{day}/events")).json;
     assert_eq!(events["events"][0]["event"]["time"], "07:10:00");
     let events = service.get(&format!("{day}/events?times=iso")).json;
@@ -209,7 +209,7 @@ fn a_policy_of_ones_own_decides() {
     assert_eq!(service.get("/v1/policies/ours-2026").json["vertiports"], Value::Null);
     // It cannot be taken from a day that it decides on, and its name means these weights for good.
     let needed = service.send("DELETE", "/v1/policies/ours-2026", &[], b"");
-    assert_eq!((needed.status, &needed.json["code"]), (409, &json!("V630")), "{needed:?}");
+    assert_eq!(needed.problem(), (409, "V630"), "{needed:?}");
     assert_eq!(service.post(&format!("{day}/archive"), &json!({})).status, 204);
     assert_eq!(service.send("DELETE", "/v1/policies/ours-2026", &[], b"").status, 204);
     assert_eq!(service.send("DELETE", "/v1/policies/ours-2026", &[], b"").status, 404);
@@ -233,7 +233,7 @@ fn an_override_records_what_the_policy_would_have_done() {
         .find(|one| one["to"] != proposal["to"] && one.get("impossible").is_none());
     let other = &other.expect("another choice")["to"];
     let body = json!({"aircraft": "A01", "to": other, "reason": "a charter", "deadline_ms": 5000});
-    let taken = service.post(&format!("{day}/decisions"), &body);
+    let taken = service.decide(&day, &body);
     assert_eq!(taken.status, 201, "{taken:?}");
     let event = service.get(&format!("{day}/events")).json["events"][0]["event"].clone();
     assert_eq!((&event["to"], &event["instead_of"]), (other, &proposal["to"]));
@@ -244,7 +244,7 @@ fn the_state_says_who_needs_a_decision_who_flies_and_until_when_things_are_close
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let send = |event: Value| {
-        let answer = service.post(&format!("{day}/events"), &event);
+        let answer = service.event(&day, &event);
         assert_eq!(answer.status, 201, "{event}: {answer:?}");
     };
     let proposal = service.get(&format!("{day}/aircraft/A01/decision")).json;
@@ -252,7 +252,7 @@ fn the_state_says_who_needs_a_decision_who_flies_and_until_when_things_are_close
     send(json!({"type": "out_of_service", "aircraft": "A02", "until": "09:00:00"}));
     send(json!({"type": "closed", "routes": {"from": "V1", "to": "V2"}, "until": "08:00:00"}));
     send(json!({"type": "closed", "routes": {"from": "V1", "to": "V3"}}));
-    let state = service.get(&format!("{day}/state")).json;
+    let state = service.state(&day);
     let (first, second) = (&state["aircraft"][0], &state["aircraft"][1]);
     assert_eq!(
         (&first["needs_decision"], &first["flight"]["to"]),
@@ -266,14 +266,4 @@ fn the_state_says_who_needs_a_decision_who_flies_and_until_when_things_are_close
     assert_eq!(state["aircraft"][2]["needs_decision"], json!(true));
     let closed = json!([{"to": "V2", "until": "08:00:00"}, {"to": "V3", "until": null}]);
     assert_eq!(state["vertiports"][0]["closed"], closed);
-}
-
-#[test]
-fn a_refused_list_names_the_event() {
-    let (_folder, service) = service();
-    let day = service.new_day("greedy");
-    let events = json!([{"type": "clock"}, {"type": "landed", "aircraft": "A01"}]);
-    let answer = service.post(&format!("{day}/events"), &events);
-    assert_eq!((answer.status, &answer.json["code"]), (422, &json!("V604")));
-    assert!(detail(&answer.json).starts_with("event 2 of 2: "), "{answer:?}");
 }

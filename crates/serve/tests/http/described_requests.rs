@@ -22,11 +22,11 @@ fn what_comes_after_an_event_that_was_not_is_not_found() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let clock = json!({"type": "clock"});
-    assert_eq!(service.post(&format!("{day}/events"), &clock).status, 201);
+    assert_eq!(service.event(&day, &clock).status, 201);
     for path in ["state?seq=", "events?after=", "stream?after="] {
         for beyond in ["2", "9223372036854775807"] {
             let refused = service.get(&format!("{day}/{path}{beyond}"));
-            assert_eq!((refused.status, &refused.json["code"]), (404, &json!("V602")), "{path}");
+            assert_eq!(refused.problem(), (404, "V602"), "{path}");
             let said = format!("there is no event {beyond}: the day is at event 1");
             assert_eq!(refused.json["detail"], json!(said), "{path}");
             assert!(refused.json["hint"].as_str().is_some_and(|hint| hint.contains("a copy")));
@@ -71,7 +71,7 @@ fn a_page_has_as_many_entries_as_are_asked_for_or_the_request_is_refused() {
         }
         for limit in [0, most + 1, 2_147_483_648_i64, -1] {
             let refused = service.get(&format!("{path}?limit={limit}"));
-            assert_eq!((refused.status, &refused.json["code"]), (400, &json!("V601")), "{limit}");
+            assert_eq!(refused.problem(), (400, "V601"), "{limit}");
         }
     }
 }
@@ -88,7 +88,7 @@ fn numbers_are_taken_up_to_the_described_maximum() {
         found["properties"][member]["maximum"].as_u64().expect("a maximum")
     };
     let event = |body: Value| {
-        let answer = service.post(&format!("{day}/events"), &body);
+        let answer = service.event(&day, &body);
         (answer.status, answer.json["code"].as_str().unwrap_or_default().to_owned())
     };
     for excess in [0, 1] {

@@ -8,6 +8,7 @@ use serde_json::json;
 use sqlx::{AnyConnection, Connection as _, Executor as _};
 use vertifleet_serve::{Keeper, Location, restore};
 
+use crate::api::service;
 use crate::running::Running;
 
 /// Changes the database behind the back of the service.
@@ -33,13 +34,12 @@ fn findings(folder: &Path) -> Vec<String> {
 
 fn book(service: &Running, day: &str, passengers: u32) {
     let event = json!({"type": "booked", "period": "07:00:00", "from": "V1", "to": "V2", "passengers": passengers});
-    assert_eq!(service.post(&format!("{day}/events"), &event).status, 201);
+    assert_eq!(service.event(day, &event).status, 201);
 }
 
 #[test]
 fn events_and_days_that_are_missing_are_found() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
+    let (folder, service) = service();
     let day = service.new_day("greedy");
     for passengers in 1..=3 {
         book(&service, &day, passengers);
@@ -52,7 +52,7 @@ fn events_and_days_that_are_missing_are_found() {
     assert_eq!(findings(folder.path()), ["event 3 is missing; the last event is 3"]);
     let service = Running::start(folder.path());
     let refused = service.get(&format!("{day}/state"));
-    assert_eq!((refused.status, &refused.json["code"]), (500, &json!("V607")));
+    assert_eq!(refused.problem(), (500, "V607"));
     drop(service);
     tamper(folder.path(), "UPDATE days SET seq = 2");
     let [finding] = &findings(folder.path())[..] else { panic!("one finding") };

@@ -1,59 +1,14 @@
 //! Requests that make no sense: each gets an answer with a code, and the day stays as it is.
 
 use serde_json::{Value, json};
-use vertifleet_testkit::{draw, spoilt};
 
 use crate::api::service;
-
-const REQUESTS: u32 = 1_000;
-
-#[test]
-fn malformed_requests_are_refused_with_a_code() {
-    let (_folder, service) = service();
-    let day = service.new_day("greedy");
-    let good = [
-        (
-            "/events",
-            r#"{"type":"departed","aircraft":"A01","time":"07:00:00","to":"V3","passengers":2}"#,
-        ),
-        (
-            "/events",
-            r#"[{"type":"closed","routes":{"from":"V1","to":"V2"},"until":30000,"reason":"wind"}]"#,
-        ),
-        (
-            "/events",
-            r#"{"type":"demand","period":"07:00:00","pairs":[{"from":"V1","to":"V2","passengers":3}]}"#,
-        ),
-        (
-            "/decisions",
-            r#"{"aircraft":"A01","policy":"greedy","time":"06:30:00","deadline_ms":50}"#,
-        ),
-        ("/what-if", r#"{"events":[],"stands":{"V1":3},"aircraft":[{"id":"A99","at":"V2"}]}"#),
-    ];
-    let mut refused = 0;
-    for seed in 0..REQUESTS {
-        let (path, body) = good[draw(seed, 1) % good.len()];
-        let body = spoilt(body.as_bytes(), seed);
-        let answer = service.send("POST", &format!("{day}{path}"), &[], &body);
-        let sent = String::from_utf8_lossy(&body);
-        assert!((200..500).contains(&answer.status), "{sent}: {answer:?}");
-        if answer.status >= 400 {
-            refused += 1;
-            assert!(
-                answer.json["code"].as_str().is_some_and(|code| code.starts_with('V')),
-                "{sent}: {answer:?}"
-            );
-        }
-    }
-    assert!(refused > REQUESTS / 2, "{refused} were refused");
-    assert_eq!(service.get(&format!("{day}/state")).status, 200);
-}
 
 #[test]
 fn a_reason_is_no_longer_than_people_write() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
-    let place = service.get(&format!("{day}/state")).json["aircraft"][0]["place"].clone();
+    let place = service.state(&day)["aircraft"][0]["place"].clone();
     let long = "\u{e9}".repeat(1_001);
     let event = |reason: &str| json!({"type": "undone", "aircraft": "A01", "reason": reason});
     let decision = |reason: &str| json!({"aircraft": "A01", "to": place, "reason": reason});
@@ -66,8 +21,8 @@ fn a_reason_is_no_longer_than_people_write() {
         );
     }
     let most = &long[..2_000];
-    assert_eq!(service.post(&format!("{day}/decisions"), &decision(most)).status, 201);
-    assert_eq!(service.post(&format!("{day}/events"), &event(most)).status, 201);
+    assert_eq!(service.decide(&day, &decision(most)).status, 201);
+    assert_eq!(service.event(&day, &event(most)).status, 201);
 }
 
 #[test]
@@ -83,7 +38,7 @@ fn a_page_of_long_events_ends_before_it_fills_the_memory() {
     let pairs: Vec<Value> = pairs.iter().cycle().take(20_000).cloned().collect();
     let event = json!({"type": "demand", "period": "07:00:00", "pairs": pairs});
     for _ in 0..6 {
-        assert_eq!(service.post(&format!("{day}/events"), &event).status, 201);
+        assert_eq!(service.event(&day, &event).status, 201);
     }
     let (mut after, mut pages, mut seen) = (0, 0, 0);
     loop {
@@ -127,9 +82,7 @@ fn an_event_has_each_member_once_and_no_other() {
 fn a_clock_that_ends_the_day_for_ever_is_refused() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
-    let clock = |time: &str| {
-        service.post(&format!("{day}/events"), &json!({"type": "clock", "time": time})).status
-    };
+    let clock = |time: &str| service.event(&day, &json!({"type": "clock", "time": time})).status;
     assert_eq!([clock("99:59:59"), clock("22:00:01")], [422, 422], "the day ends at 18:00");
     assert_eq!([clock("17:00:00"), clock("21:59:59"), clock("25:00:00")], [201, 201, 201]);
 }

@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use serde_json::json;
+use serde_json::{Value, json};
 use vertifleet_core::{DaySeed, Network, Scenario, Stop};
 use vertifleet_policy::play;
 use vertifleet_serve::{Operation, OperationReport, operate};
 use vertifleet_sim::{DayTotals, Simulation};
 use vertifleet_study::{PolicySpec, ResolveFor};
 
+use crate::api::service;
 use crate::running::Running;
 
 pub(crate) fn day(network: &str, seed: u64) -> Arc<Scenario> {
@@ -30,24 +31,12 @@ pub(crate) fn operated(service: &Running, day: &Arc<Scenario>, policy: &str) -> 
 }
 
 fn operation(service: &Running, day: &Arc<Scenario>, policy: &str) -> Operation {
-    let (url, policy) = (service.url.clone(), policy.to_owned());
-    let day = Arc::clone(day);
-    Operation {
-        url,
-        day,
-        time_zone: None,
-        policy,
-        token: None,
-        trusted: None,
-        speed: None,
-        by_hand: false,
-    }
+    Operation::new(&service.url, Arc::clone(day), policy)
 }
 
 #[test]
 fn a_live_day_is_the_simulated_day_to_the_cent() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
+    let (_folder, service) = service();
     let policies = |network| match network {
         // Its roll-outs depend on what is known of delays.
         "disrupted" => ["gcaps-x", "rolling"],
@@ -65,14 +54,10 @@ fn a_live_day_is_the_simulated_day_to_the_cent() {
 
 #[test]
 fn a_list_of_days_says_how_far_each_is() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
+    let (_folder, service) = service();
     let over = operated(&service, &day("disrupted", 2004), "greedy");
     let begun = service.new_day("greedy");
-    assert_eq!(
-        service.post(&format!("{begun}/decisions"), &json!({"aircraft": "A01"})).status,
-        201
-    );
+    assert_eq!(service.decide(&begun, &json!({"aircraft": "A01"})).status, 201);
     let archived = service.new_day("greedy");
     assert_eq!(service.send("POST", &format!("{archived}/archive"), &[], b"").status, 204);
     let days = service.get("/v1/days?progress=true").json;
@@ -88,89 +73,84 @@ fn a_list_of_days_says_how_far_each_is() {
 
 #[test]
 fn a_day_that_others_decide_is_the_simulated_day_to_the_cent() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
+    let (_folder, service) = service();
     let day = day("disrupted", 2002);
-    let operation = Operation { by_hand: true, ..operation(&service, &day, "greedy") };
-    let stop = Stop::default();
-    let report = std::thread::scope(|scope| {
-        let operator = scope.spawn(|| operate(&operation, &stop, |_, _| ()));
-        while !operator.is_finished() {
-            decide_all(&service);
-        }
-        operator.join().expect("no panic")
-    });
-    let report = report.expect("the service answers").expect("it is not stopped");
+    let report = operated_by_hand(&service, &day, |day, state, _| decide_all(&service, day, state));
     assert_eq!(report.totals, simulated(&day, "greedy"));
 }
 
 #[test]
 fn people_decide_in_an_order_of_their_own_and_change_their_minds() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let service = Running::start(folder.path());
+    let (_folder, service) = service();
     // Few stands, so that it matters who is sent off first.
     let text =
         include_str!("../../../../networks/paper.toml").replacen("stands = 6", "stands = 5", 5);
     let network = Network::from_toml(&text, "fewer stands").expect("a network");
     let day = Arc::new(network.draw(DaySeed::validation(2003).expect("a seed")));
-    let operation = Operation { by_hand: true, ..operation(&service, &day, "greedy") };
-    let stop = Stop::default();
-    let report = std::thread::scope(|scope| {
-        let operator = scope.spawn(|| operate(&operation, &stop, |_, _| ()));
-        let mut looks = 0;
-        while !operator.is_finished() {
-            looks += 1;
-            decide_backwards(&service, looks);
-        }
-        operator.join().expect("no panic")
+    let report = operated_by_hand(&service, &day, |day, state, look| {
+        decide_backwards(&service, day, state, look);
     });
-    let report = report.expect("the service answers").expect("it is not stopped");
     assert!(report.totals.flights > 100, "{report:?}");
     let state = service.get(&format!("/v1/days/{}/state", report.day)).json;
     assert_eq!(state["notices"], json!([]), "every flight departed and landed as it should");
 }
 
+/// Operates a day on which people decide: `decide` is called with the path of the day, its state
+/// and the number of the look at it, as long as the day lasts.
+fn operated_by_hand(
+    service: &Running,
+    day: &Arc<Scenario>,
+    decide: impl Fn(&str, &Value, u32),
+) -> OperationReport {
+    let operation = Operation { by_hand: true, ..operation(service, day, "greedy") };
+    let report = std::thread::scope(|scope| {
+        let operator = scope.spawn(|| operate(&operation, &Stop::default(), |_, _| ()));
+        for look in 1.. {
+            if operator.is_finished() {
+                break;
+            }
+            let days = service.get("/v1/days").json;
+            let Some(id) = days["days"][0]["id"].as_str() else { continue };
+            let day = format!("/v1/days/{id}");
+            let state = service.state(&day);
+            // Before the operator has said who waits in the morning, the day only knows whom it
+            // expects.
+            if state["seq"] != 0 {
+                decide(&day, &state, look);
+            }
+        }
+        operator.join().expect("no panic")
+    });
+    report.expect("the service answers").expect("it is not stopped")
+}
+
+/// The aircraft that wait for a decision.
+fn waiting(state: &Value) -> impl DoubleEndedIterator<Item = &Value> {
+    let aircraft = state["aircraft"].as_array().expect("a list");
+    aircraft.iter().filter(|one| one["needs_decision"] == true)
+}
+
 /// Decides for all who wait, the last first. Now and then it takes a decision back and lets the
 /// aircraft hold.
-fn decide_backwards(service: &Running, look: u32) {
-    let days = service.get("/v1/days").json;
-    let Some(id) = days["days"][0]["id"].as_str() else { return };
-    let state = service.get(&format!("/v1/days/{id}/state")).json;
-    if state["seq"] == 0 {
-        return;
-    }
-    let aircraft = state["aircraft"].as_array().expect("a list");
-    for waiting in aircraft.iter().rev().filter(|one| one["needs_decision"] == true) {
+fn decide_backwards(service: &Running, day: &str, state: &Value, look: u32) {
+    for waiting in waiting(state).rev() {
         let aircraft = &waiting["id"];
-        let decide =
-            |body: serde_json::Value| service.post(&format!("/v1/days/{id}/decisions"), &body);
-        assert_eq!(decide(json!({ "aircraft": aircraft })).status, 201);
+        assert_eq!(service.decide(day, &json!({ "aircraft": aircraft })).status, 201);
         if look.is_multiple_of(5) {
             let undone = json!({ "type": "undone", "aircraft": aircraft });
             // The operator may have been quicker, and have said that it departed.
-            if service.post(&format!("/v1/days/{id}/events"), &undone).status == 201 {
-                let held =
-                    json!({ "aircraft": aircraft, "to": waiting["place"], "reason": "wait" });
-                decide(held);
+            if service.event(day, &undone).status == 201 {
+                let place = &waiting["place"];
+                service.decide(day, &json!({"aircraft": aircraft, "to": place, "reason": "wait"}));
             }
         }
     }
 }
 
-/// Decides for every aircraft that is ready, as the policy of the only day would.
-fn decide_all(service: &Running) {
-    let days = service.get("/v1/days").json;
-    let Some(id) = days["days"][0]["id"].as_str() else { return };
-    let state = service.get(&format!("/v1/days/{id}/state")).json;
-    // Before the operator has said who waits in the morning, the day only knows whom it expects.
-    if state["seq"] == 0 {
-        return;
-    }
-    for aircraft in state["aircraft"].as_array().expect("a list") {
-        if aircraft["needs_decision"] == true {
-            let taken = service
-                .post(&format!("/v1/days/{id}/decisions"), &json!({ "aircraft": aircraft["id"] }));
-            assert_eq!(taken.status, 201, "{taken:?}");
-        }
+/// Decides for every aircraft that is ready, as the policy of the day would.
+fn decide_all(service: &Running, day: &str, state: &Value) {
+    for waiting in waiting(state) {
+        let taken = service.decide(day, &json!({ "aircraft": waiting["id"] }));
+        assert_eq!(taken.status, 201, "{taken:?}");
     }
 }

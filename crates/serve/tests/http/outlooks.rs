@@ -47,9 +47,9 @@ fn an_outlook_from_a_moment_that_has_passed_is_the_one_of_then() {
     let asked = |query: &str| service.get(&format!("{day}/outlook?{query}"));
     let mut outlooks = vec![service.get(&format!("{day}/outlook")).json];
     let closed = json!({"type": "closed", "routes": {"vertiport": "V1"}, "until": "20:00:00"});
-    assert_eq!(service.post(&format!("{day}/events"), &closed).status, 201);
+    assert_eq!(service.event(&day, &closed).status, 201);
     outlooks.push(service.get(&format!("{day}/outlook")).json);
-    assert_eq!(service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"})).status, 201);
+    assert_eq!(service.decide(&day, &json!({"aircraft": "A01"})).status, 201);
     assert!(outlooks[1]["totals"]["profit_usd"] != outlooks[0]["totals"]["profit_usd"]);
     for (seq, outlook) in outlooks.iter().enumerate() {
         assert_eq!(&asked(&format!("seq={seq}")).json, outlook);
@@ -66,9 +66,8 @@ fn an_outlook_from_a_moment_that_has_passed_is_the_one_of_then() {
 
 /// The path of a day of `large`, whose outlook by the rolling horizon takes minutes.
 fn large_day(service: &Running) -> String {
-    let made = service.post("/v1/days", &json!({"network": "large", "policy": "greedy"}));
-    assert_eq!(made.status, 201, "{made:?}");
-    format!("/v1/days/{}", made.json["id"].as_str().expect("an id"))
+    let body = json!({"network": "large", "policy": "greedy"});
+    service.post("/v1/days", &body).made("/v1/days")
 }
 
 #[test]

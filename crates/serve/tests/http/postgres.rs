@@ -51,9 +51,8 @@ fn two_services_share_a_database() {
     assert_eq!(operated(&one, &paper, "greedy").totals, simulated(&paper, "greedy"));
     // Both write to one day, and each sees what the other wrote.
     let path = one.new_day("greedy");
-    let decide = |service: &Running, aircraft: &str| {
-        service.post(&format!("{path}/decisions"), &json!({"aircraft": aircraft}))
-    };
+    let decide =
+        |service: &Running, aircraft: &str| service.decide(&path, &json!({"aircraft": aircraft}));
     assert_eq!(decide(&one, "A01").status, 201);
     assert_eq!(decide(&two, "A02").json["seq"], 2);
     assert_eq!(one.get(&path).json["seq"], 2);
@@ -202,7 +201,7 @@ fn what_one_service_does_to_a_day_the_other_one_knows() {
     assert_eq!(one.send("POST", &format!("{path}/archive"), &[], b"").status, 204);
     assert_eq!(two.get(&path).json["archived"], true);
     let refused = two.send("POST", &format!("{path}/events"), &[], BOOKED);
-    assert_eq!((refused.status, &refused.json["code"]), (409, &json!("V608")));
+    assert_eq!(refused.problem(), (409, "V608"));
     assert_eq!(one.send("POST", &format!("{path}/unarchive"), &[], b"").status, 204);
     assert_eq!(two.send("POST", &format!("{path}/events"), &[], BOOKED).status, 201);
     assert_eq!(next().as_deref(), Some("id: 2"));
@@ -289,7 +288,7 @@ fn a_database_that_hangs_is_said_to_and_loses_nothing_that_was_acknowledged() {
         for path in [path, "/readyz", "/v1/days"] {
             let begun = Instant::now();
             let answer = services[0].get(path);
-            assert_eq!((answer.status, &answer.json["code"]), (503, &json!("V606")), "{path}");
+            assert_eq!(answer.problem(), (503, "V606"), "{path}");
             assert!(begun.elapsed() < Duration::from_secs(10), "{path}: {:?}", begun.elapsed());
         }
         database.thaw();

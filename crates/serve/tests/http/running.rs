@@ -6,8 +6,9 @@ use std::sync::mpsc;
 use std::thread::JoinHandle;
 
 use serde_json::{Value, json};
+use tempfile::TempDir;
 use vertifleet_core::Stop;
-use vertifleet_serve::{Error, Limits, Location, Protection, Settings, serve};
+use vertifleet_serve::{Error, Limits, Location, Protection, Role, Settings, Tokens, serve};
 
 /// A running service. It stops when it is dropped.
 pub(crate) struct Running {
@@ -77,6 +78,19 @@ pub(crate) struct Answer {
     pub(crate) json: Value,
 }
 
+impl Answer {
+    /// Its status and the code of what is wrong; no code if nothing is.
+    pub(crate) fn problem(&self) -> (u16, &str) {
+        (self.status, self.json["code"].as_str().unwrap_or_default())
+    }
+
+    /// The path of what was made.
+    pub(crate) fn made(&self, list: &str) -> String {
+        assert_eq!(self.status, 201, "{self:?}");
+        format!("{list}/{}", self.json["id"].as_str().expect("an id"))
+    }
+}
+
 impl Running {
     /// Sends a request with some headers, and a body if it is to be posted.
     pub(crate) fn send(
@@ -117,8 +131,36 @@ impl Running {
 
     /// Makes a day of `paper`, and returns its path.
     pub(crate) fn new_day(&self, policy: &str) -> String {
-        let made = self.post("/v1/days", &json!({"network": "paper", "seed": 3, "policy": policy}));
-        assert_eq!(made.status, 201, "{made:?}");
-        format!("/v1/days/{}", made.json["id"].as_str().expect("an id"))
+        let body = json!({"network": "paper", "seed": 3, "policy": policy});
+        self.post("/v1/days", &body).made("/v1/days")
     }
+
+    /// Sends an event to a day, or several.
+    pub(crate) fn event(&self, day: &str, event: &Value) -> Answer {
+        self.post(&format!("{day}/events"), event)
+    }
+
+    /// Has a decision taken on a day.
+    pub(crate) fn decide(&self, day: &str, asked: &Value) -> Answer {
+        self.post(&format!("{day}/decisions"), asked)
+    }
+
+    /// What is known of a day.
+    pub(crate) fn state(&self, day: &str) -> Value {
+        self.get(&format!("{day}/state")).json
+    }
+}
+
+/// A folder for data.
+pub(crate) fn folder() -> (TempDir, Location) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let location = Location::Folder(folder.path().to_owned());
+    (folder, location)
+}
+
+/// A way to make tokens for the service of a folder: each by its name and role, as the value of the
+/// header that brings it.
+pub(crate) fn bearers(location: &Location) -> impl Fn(&str, Role) -> String + use<> {
+    let tokens = Tokens::open(location).expect("a store");
+    move |name, role| format!("Bearer {}", tokens.make(name, role).expect("a token"))
 }

@@ -7,19 +7,17 @@ use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 use vertifleet_core::{Network, Purpose, Stop};
-use vertifleet_serve::{Location, Role, Tokens};
+use vertifleet_serve::Role;
 use vertifleet_study::comparison::{Comparison, DrawnDays};
 use vertifleet_study::competitor::Selection;
 use vertifleet_study::{ComparisonReport, Unwatched};
 
 use crate::api::service;
-use crate::running::Running;
+use crate::running::{Running, bearers, folder};
 
 /// Makes a study, and returns its path.
 fn made(service: &Running, body: &Value) -> String {
-    let made = service.post("/v1/studies", body);
-    assert_eq!(made.status, 201, "{made:?}");
-    format!("/v1/studies/{}", made.json["id"].as_str().expect("an id"))
+    service.post("/v1/studies", body).made("/v1/studies")
 }
 
 /// Sees that the policy which comes with a page lets its own style sheet and script in, and nothing
@@ -162,13 +160,13 @@ fn studies_wait_for_each_other_and_can_be_ended() {
     assert_eq!(service.get(&second).json["state"], "waiting");
     // Decisions are taken meanwhile.
     let day = service.new_day("greedy");
-    assert_eq!(service.post(&format!("{day}/decisions"), &json!({"aircraft": "A01"})).status, 201);
+    assert_eq!(service.decide(&day, &json!({"aircraft": "A01"})).status, 201);
     assert_eq!(service.get(&first).json["state"], "playing", "the decision did not wait for it");
     for _ in 1..8 {
         made(&service, &short);
     }
     let refused = service.post("/v1/studies", &short);
-    assert_eq!((refused.status, &refused.json["code"]), (409, &json!("V612")), "{refused:?}");
+    assert_eq!(refused.problem(), (409, "V612"), "{refused:?}");
     assert_eq!(service.send("DELETE", &first, &[], b"").status, 204);
     assert_eq!(service.get(&first).status, 404);
     let single = until(&service, &second, "finished");
@@ -215,7 +213,7 @@ fn what_cannot_be_played_is_refused_at_once() {
         ),
     ] {
         let refused = service.post("/v1/studies", &body);
-        assert_eq!((refused.status, &refused.json["code"]), (status, &json!(code)), "{refused:?}");
+        assert_eq!(refused.problem(), (status, code), "{refused:?}");
     }
     assert_eq!(service.get("/v1/studies").json["studies"], json!([]));
     assert_eq!(service.send("DELETE", "/v1/studies/none", &[], b"").status, 404);
@@ -223,11 +221,9 @@ fn what_cannot_be_played_is_refused_at_once() {
 
 #[test]
 fn dispatchers_make_and_end_studies_and_readers_read_them() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let location = Location::Folder(folder.path().to_owned());
-    let tokens = Tokens::open(&location).expect("a store");
-    let token = |role: Role| format!("Bearer {}", tokens.make(role.name(), role).expect("a token"));
-    let (reads, dispatches) = (token(Role::Read), token(Role::Dispatch));
+    let (folder, location) = folder();
+    let token = bearers(&location);
+    let (reads, dispatches) = (token("reads", Role::Read), token("dispatches", Role::Dispatch));
     let service = Running::start(folder.path());
     let body = json!({"network": "paper", "policies": ["greedy"], "days": 1}).to_string();
     let as_ = |token: &str, method: &str, path: &str| {
@@ -235,7 +231,7 @@ fn dispatchers_make_and_end_studies_and_readers_read_them() {
     };
     assert_eq!(as_(&reads, "POST", "/v1/studies").status, 403);
     let made = as_(&dispatches, "POST", "/v1/studies");
-    let study = format!("/v1/studies/{}", made.json["id"].as_str().expect("an id"));
+    let study = made.made("/v1/studies");
     assert_eq!(as_(&reads, "GET", &study).status, 200);
     assert_eq!(as_(&reads, "DELETE", &study).status, 403);
     assert_eq!(as_(&dispatches, "DELETE", &study).status, 204);

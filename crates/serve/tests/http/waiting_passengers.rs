@@ -20,18 +20,18 @@ fn what_is_booked_waits_and_what_departs_does_not() {
     assert_eq!((before.status, before.tag.as_str()), (200, "\"0\""));
     assert_eq!(before.json["has_begun"], true);
 
-    let state = service.get(&format!("{day}/state")).json;
+    let state = service.state(&day);
     let from = state["aircraft"][0]["place"].as_str().expect("it stands at a vertiport");
     let to = if from == "V1" { "V2" } else { "V1" };
     let booked =
         json!({"type": "booked", "period": "06:00:00", "from": from, "to": to, "passengers": 9});
-    assert_eq!(service.post(&format!("{day}/events"), &booked).status, 201);
+    assert_eq!(service.event(&day, &booked).status, 201);
     let booked = waiting().json;
     let more = passengers(&before.json, from, to) + 9;
     assert_eq!((passengers(&booked, from, to), &booked["seq"]), (more, &json!(1)));
 
     let decided = json!({"aircraft": "A01", "to": to, "reason": "they wait"});
-    assert_eq!(service.post(&format!("{day}/decisions"), &decided).status, 201);
+    assert_eq!(service.decide(&day, &decided).status, 201);
     let left = passengers(&waiting().json, from, to);
     let seats = 4;
     assert_eq!(left, more - seats, "a full aircraft takes as many as it has seats");
