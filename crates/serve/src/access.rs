@@ -18,7 +18,7 @@ use crate::tokens::{Role, StoredToken, matching};
 
 /// A token that is revoked is refused after this time at the latest, if the store answers.
 const FRESH: Duration = Duration::from_secs(2);
-/// While the store does not answer, tokens that are known hold for so long.
+/// How long known tokens stay valid while the store does not answer.
 const STALE: Duration = Duration::from_mins(1);
 const TWO: NonZeroU32 = NonZeroU32::new(2).unwrap();
 /// What stands before a token, in large or small letters (RFC 9110).
@@ -48,15 +48,15 @@ pub(crate) struct Access {
 }
 
 impl Access {
-    /// Access by the tokens of a store, each of which may ask so often in a second.
+    /// Access by the tokens of a store, each with at most `most_per_s` requests a second.
     pub(crate) fn new(store: Store, most_per_s: u32) -> Self {
         let rate = NonZeroU32::new(most_per_s).unwrap_or(NonZeroU32::MIN);
         let quota = Quota::per_second(rate).allow_burst(rate.saturating_mul(TWO));
         Self { store, known: Mutex::new(None), rates: RateLimiter::hashmap(quota), most_per_s }
     }
 
-    /// The tokens, at most [`FRESH`] old; older ones while the store does not answer, but not much older. One request asks
-    /// the store, and the others do not wait for it if they know any.
+    /// The tokens, at most [`FRESH`] old; older ones while the store does not answer, but not much
+    /// older. One request asks the store, and the others do not wait for it if they know any.
     async fn tokens(&self) -> Result<Arc<[StoredToken]>, Error> {
         let known = self.known().clone();
         let age = known.as_ref().map(|known| known.read.elapsed());
@@ -90,8 +90,8 @@ impl Access {
         Ok(self.tokens().await?.iter().any(|token| token.revoked_ms == 0))
     }
 
-    /// Lets a request to a host in, or refuses it. A request counts against its token, also if it is refused; if the store is
-    /// unavailable, it is attributed to no token.
+    /// Lets a request to a host in, or refuses it. A request counts against its token, also if it
+    /// is refused; if the store is unavailable, it is attributed to no token.
     pub(crate) async fn admit(
         &self,
         host: &str,

@@ -16,7 +16,7 @@ use crate::taken_event::TakenEvent;
 /// At most this many requests are committed together.
 const MOST_TOGETHER: usize = 1_024;
 
-/// For so long a failure counts as one of a moment ago.
+/// How long a failure counts as recent.
 const A_MOMENT: Duration = Duration::from_secs(5);
 
 /// What is done with events once it is known whether they are stored. Events of a day come here in

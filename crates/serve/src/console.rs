@@ -1,5 +1,4 @@
-//! The console: pages and scripts that anybody may have, since the data behind them needs a token
-//! as ever.
+//! The console: pages and scripts, which need no token. The data behind them does.
 
 use std::sync::Arc;
 

@@ -16,7 +16,7 @@ use crate::taken_event::TakenEvent;
 
 /// Events that a slow reader may be behind before it has to read from the store.
 const KEPT_FOR_READERS: usize = 1_024;
-/// A request waits so long for events to be stored that it has seen in memory.
+/// How long a request waits until the events that it has seen in memory are stored.
 const STORE_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// A day in memory.
@@ -34,7 +34,7 @@ pub(crate) struct DayCell {
     pub(crate) deciders: Deciders,
 }
 
-/// An event that readers are told.
+/// An event as it is published to readers.
 #[derive(Debug)]
 pub(crate) struct Published {
     /// The event.

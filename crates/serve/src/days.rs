@@ -25,10 +25,10 @@ use crate::store::{AppendId, Store, StoredAnswer, StoredDay};
 use crate::taken_event::TakenEvent;
 use crate::turns::Turns;
 
-/// Beyond so many days, days that are not in use leave memory. A day of `paper` takes half a
-/// megabyte.
+/// With more days than this in memory, those that are not in use leave it. A day of `paper` takes
+/// half a megabyte.
 const MOST_IN_MEMORY: usize = 1_000;
-/// A write is tried so often when other services write to the same day.
+/// How often a write is tried when other services write to the same day.
 const TRIES: u32 = 5;
 
 /// Who writes, and what must hold for it.
@@ -74,8 +74,8 @@ pub(crate) struct Days {
 type Cells = HashMap<String, Arc<OnceCell<Arc<DayCell>>>>;
 
 impl Days {
-    /// The days of a store, each with at most so many events. Each is read when it is first asked
-    /// for.
+    /// The days of a store, each with at most `most_events` events. Each is read when it is first
+    /// asked for.
     pub(crate) fn new(store: Store, most_events: u64, turns: Turns) -> Self {
         let metrics = Arc::new(Metrics::default());
         let committer = Committer::start(store.clone(), Arc::clone(&metrics));
@@ -256,8 +256,8 @@ impl Days {
             let answer = answer(&events);
             let Writer { idempotency, busy, .. } = writer;
             let kept = idempotency.map(|asked| asked.answered_with(&answer));
-            // Published once they are stored, also if the client has gone by then: a crash must
-            // not take back an event that anyone has heard of.
+            // Published once they are stored, also if the client has gone by then. Until they are,
+            // no reader hears of them, because a crash could take them back.
             let cell = Arc::clone(day);
             let publish = move |outcome: Result<(), Error>, events| {
                 match outcome {

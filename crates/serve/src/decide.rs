@@ -38,8 +38,8 @@ pub(crate) struct Proposal {
     pub(crate) too_late: Option<String>,
     /// How long the decision took, microseconds.
     pub(crate) took_us: u64,
-    /// Every vertiport, in the order of the day: what flying there would bring, and why it is not possible where it is
-    /// not.
+    /// Every vertiport, in the order of the day: what flying there would bring, and why it is not
+    /// possible where it is not.
     pub(crate) alternatives: Vec<Alternative>,
 }
 
@@ -51,12 +51,13 @@ pub(crate) struct Alternative {
     /// Why it is not possible; absent if it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) impossible: Option<Impossible>,
-    /// What the policy compares its choices by: dollars for policies that price the rest of the day or roll it out,
-    /// dollars an hour for `greedy`. Absent if the policy did not consider it.
+    /// What the policy compares its choices by: dollars for policies that price the rest of the day
+    /// or roll it out, dollars an hour for `greedy`. Absent if the policy did not consider it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) value: Option<f64>,
-    /// Worth at the day's bid prices, dollars: the flight's profit and what being ready there afterwards is worth, less
-    /// the prices of its passengers and its stand. Absent if the policy has no prices.
+    /// Worth at the day's bid prices, dollars: the flight's profit and what being ready there
+    /// afterwards is worth, less the prices of its passengers and its stand. Absent if the policy
+    /// has no prices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) worth_usd: Option<f64>,
     /// Profit of the flight itself, dollars; 0 for a hold.
@@ -167,11 +168,12 @@ impl Decider {
         self.room.is_none()
     }
 
-    /// Proposes a decision for an aircraft that is ready. If the service is `busy`, prices that are a quarter of an hour old are
-    /// recomputed in the background.
+    /// Proposes a decision for an aircraft that is ready. If the service is `busy`, prices that are
+    /// a quarter of an hour old are recomputed in the background.
     ///
     /// # Errors
-    /// Returns [`Error::UnknownId`] if there is no such aircraft, and [`Error::ReportError`] if it cannot decide now.
+    /// Returns [`Error::UnknownId`] if there is no such aircraft, and [`Error::ReportError`] if it
+    /// cannot decide now.
     pub(crate) fn propose(
         &mut self,
         mut state: MutexGuard<'_, DispatchDay>,

@@ -17,7 +17,8 @@ use crate::moment::Moment;
 /// An event: something that happened, was decided or became known, and when.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub(crate) struct Event {
-    /// When it happened or became known. Without it, that is now: the latest time that the day has heard of.
+    /// When it happened or became known. Without it, that is now: the latest time that the day has
+    /// heard of.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) time: Option<Moment>,
     /// What happened.
@@ -106,9 +107,11 @@ pub(crate) fn reason<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum EventKind {
-    /// The day is at this time; nothing else is known. Other events may not lie more than four hours after the latest.
+    /// The day is at this time; nothing else is known. Other events may not lie more than four
+    /// hours after the latest.
     Clock,
-    /// An aircraft that is ready is to fly to a vertiport; its own vertiport means hold. The rules must permit it.
+    /// An aircraft that is ready is to fly to a vertiport; its own vertiport means hold. The rules
+    /// must permit it.
     Decided {
         /// The aircraft.
         aircraft: String,
@@ -166,8 +169,8 @@ pub(crate) enum EventKind {
         /// The aircraft.
         aircraft: String,
     },
-    /// What an aircraft does next is expected at another time: its departure if it has been sent off, its landing if it
-    /// is in the air, the end of charging if it stands.
+    /// What an aircraft does next is expected at another time: its departure if it has been sent
+    /// off, its landing if it is in the air, the end of charging if it stands.
     Delayed {
         /// The aircraft.
         aircraft: String,
@@ -191,7 +194,8 @@ pub(crate) enum EventKind {
         /// The aircraft.
         aircraft: String,
     },
-    /// Routes are closed to new flights: one way between two vertiports, or all that lead to a vertiport or away from it.
+    /// Routes are closed to new flights: one way between two vertiports, or all that lead to a
+    /// vertiport or away from it.
     Closed {
         /// The routes.
         routes: RouteNames,

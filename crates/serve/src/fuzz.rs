@@ -252,7 +252,7 @@ mod tests {
 
     use super::AnyRequest;
 
-    /// Every good request is spoilt in so many ways.
+    /// The number of ways in which every good request is spoilt.
     const WAYS: u32 = 100;
 
     /// Bodies (`.json`), queries and other texts that mean something on the small day. Fuzzing

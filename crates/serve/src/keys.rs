@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::store::StoredAnswer;
 
-/// So many hashes take some 50 MB.
+/// The most hashes in memory; they take about 50 MB.
 const MOST: usize = 4_000_000;
 
 /// The keys of a service.

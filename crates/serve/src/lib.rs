@@ -3,8 +3,8 @@
 //!
 //! A day is a scenario and a log of events; its state is the fold of the log by the simulator's
 //! rules ([`vertifleet_sim::live`]) and nothing else. An event is durable before it is
-//! acknowledged: a day takes it in memory, one writer commits many at a time, and only then does
-//! anybody hear of it.
+//! acknowledged: a day takes it in memory, one writer commits many at a time, and only then do
+//! the client and the readers hear of it.
 
 mod access;
 mod api;

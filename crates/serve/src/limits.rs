@@ -18,7 +18,7 @@ pub struct Limits {
     pub days: u64,
     /// Events of a day.
     pub events: u64,
-    /// A connection on which no whole head of a request has come for so long is closed.
+    /// Time for the head of a request, after which the connection is closed.
     pub head: Duration,
     /// A request is read and answered within this time.
     pub request: Duration,

@@ -11,12 +11,13 @@ use vertifleet_core::Time;
 use crate::calendar::Calendar;
 
 thread_local! {
-    /// What times mean while a request is read or an answer written. A type that is read or written as JSON is told
-    /// nothing of the day that it belongs to, so it stands here.
+    /// What times mean while a request is read or an answer written. A type that is read or written
+    /// as JSON is told nothing of the day that it belongs to, so it stands here.
     static CALENDAR: RefCell<Option<Calendar>> = const { RefCell::new(None) };
 }
 
-/// Does some reading or writing of times with the calendar of their day; without a calendar, times have no dates.
+/// Does some reading or writing of times with the calendar of their day; without a calendar, times
+/// have no dates.
 pub(crate) fn by_calendar<T>(calendar: Option<&Calendar>, work: impl FnOnce() -> T) -> T {
     struct Put(Option<Calendar>);
     impl Drop for Put {
@@ -33,12 +34,14 @@ pub(crate) fn is_by_calendar() -> bool {
     CALENDAR.with_borrow(Option::is_some)
 }
 
-/// A time of the day that is being dispatched, as seconds since midnight or as `HH:MM:SS`, which may pass 24:00:00. It is
-/// written as `HH:MM:SS`. By a calendar it is read and written in ISO 8601 too.
+/// A time of the day that is being dispatched, as seconds since midnight or as `HH:MM:SS`, which
+/// may pass 24:00:00. It is written as `HH:MM:SS`. By a calendar it is read and written in ISO 8601
+/// too.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Moment(Time);
 
-/// What the texts of times look like. What follows from the latest time that is taken may lie after 100:00:00.
+/// What the texts of times look like. What follows from the latest time that is taken may lie after
+/// 100:00:00.
 const PATTERN: &str =
     "^([0-9]{1,4}:[0-5][0-9]:[0-5][0-9]|[0-9]{1,6}|[0-9]{4}-[0-9]{2}-[0-9]{2}T.*[0-9].*)$";
 /// No day lasts longer, seconds.

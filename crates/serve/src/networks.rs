@@ -132,7 +132,8 @@ pub(crate) async fn list(store: &Store) -> Result<Vec<NetworkInfo>, Error> {
     Ok(networks)
 }
 
-/// Reads a network that was uploaded to say what it is, and keeps that for the next time. `None` if it is gone.
+/// Reads a network that was uploaded to say what it is, and keeps that for the next time. `None` if
+/// it is gone.
 async fn described(
     store: &Store,
     name: &str,
@@ -144,11 +145,12 @@ async fn described(
     Ok(Some(info))
 }
 
-/// Keeps a network under its name, in the place of one that was uploaded before. Days that were made stay as they are.
+/// Keeps a network under its name, in the place of one that was uploaded before. Days that were
+/// made stay as they are.
 ///
 /// # Errors
-/// Returns the errors of [`check`], [`Error::BadRequest`] if the name is another one or that of a shipped network, and
-/// [`Error::TooMuch`].
+/// Returns the errors of [`check`], [`Error::BadRequest`] if the name is another one or that of a
+/// shipped network, and [`Error::TooMuch`].
 pub(crate) async fn put(
     store: &Store,
     name: &str,

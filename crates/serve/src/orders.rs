@@ -10,7 +10,7 @@ pub(crate) struct Choices {
 }
 
 impl Choices {
-    /// The next choice, of so many.
+    /// The next choice, one of `ways`.
     pub(crate) fn of(&mut self, ways: usize) -> usize {
         if self.taken == self.made.len() {
             self.made.push((0, ways));

@@ -30,23 +30,27 @@ pub(crate) struct Outlook {
     pub(crate) now: Moment,
     /// The policy.
     pub(crate) policy: String,
-    /// The policy that was asked, if it could not play the rest of the day in time. The one that is named then did.
+    /// The policy that was asked, if it could not play the rest of the day in time. The one that is
+    /// named then did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) too_late: Option<String>,
-    /// Profit so far, dollars: of the flights that have been sent off, less what the fleet costs all day.
+    /// Profit so far, dollars: of the flights that have been sent off, less what the fleet costs
+    /// all day.
     pub(crate) profit_so_far_usd: f64,
     /// The numbers of the whole day as it is expected to end.
     #[schema(value_type = Totals)]
     pub(crate) totals: DayTotals,
-    /// No way to go on lets the whole day earn more than this, as far as it is known what will happen; dollars. Proven, not
+    /// An upper bound on the profit of the whole day, dollars, given what is known now. Proven, not
     /// estimated; absent if the rest of the day is too large to be bounded quickly.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) upper_bound_usd: Option<f64>,
-    /// Every flight and hold of the day, in the order of decisions: those that were taken, then those that are expected.
+    /// Every flight and hold of the day, in the order of decisions: those that were taken, then
+    /// those that are expected.
     pub(crate) legs: Vec<Leg>,
 }
 
-/// The numbers of a day in the description: dollars, kilowatt-hours, shares and counts, as their names say.
+/// The numbers of a day in the description: dollars, kilowatt-hours, shares and counts, as their
+/// names say.
 pub(crate) struct Totals;
 
 impl PartialSchema for Totals {
@@ -104,7 +108,8 @@ pub(crate) struct WhatIf {
     pub(crate) events: Vec<Event>,
     /// The policy that would decide; without it, the day's.
     pub(crate) policy: Option<String>,
-    /// Stands (or chargers where they are counted apart) that vertiports would have had since the morning.
+    /// Stands (or chargers where they are counted apart) that vertiports would have had since the
+    /// morning.
     #[serde(default)]
     #[schema(value_type = BTreeMap<String, StandCount>)]
     pub(crate) stands: BTreeMap<String, u16>,
@@ -227,8 +232,9 @@ impl Outlook {
     }
 }
 
-/// The slices of the bound, minutes, for days up to a size: vertiports times vertiports times aircraft types times hours
-/// left. A bound then takes half a second at most; the rest of a larger day has none.
+/// The slices of the bound, minutes, for days up to a size: vertiports times vertiports times
+/// aircraft types times hours left. A bound then takes half a second at most; the rest of a larger
+/// day has none.
 const STEPS: [(usize, u32); 2] = [(1_000, 15), (4_000, 60)];
 
 /// What the whole day can earn at most from now on.
@@ -296,11 +302,13 @@ impl WhatIf {
         Ok(day.check("what-if")?)
     }
 
-    /// Compares a day as it is with what it might be. `otherwise` is the day with another beginning, if it has one. The
-    /// first policy decides as things are, the second as they might be; if either takes too long, the third decides both.
+    /// Compares a day as it is with what it might be. `otherwise` is the day with another
+    /// beginning, if it has one. The first policy decides as things are, the second as they might
+    /// be; if either takes too long, the third decides both.
     ///
     /// # Errors
-    /// Returns an error if an event cannot be taken, if a policy cannot play the day, or if the client has gone.
+    /// Returns an error if an event cannot be taken, if a policy cannot play the day, or if the
+    /// client has gone.
     pub(crate) fn compare(
         self,
         day: &mut DispatchDay,

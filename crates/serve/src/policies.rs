@@ -103,8 +103,8 @@ impl Policies {
     /// The policy with a name, for a day.
     ///
     /// # Errors
-    /// Returns an error if there is no such policy, or if it does not fit the day. Traces cannot be replayed, since their
-    /// files are not the client's.
+    /// Returns an error if there is no such policy, or if it does not fit the day. Traces cannot be
+    /// replayed, since their files are not the client's.
     pub(crate) async fn resolve(
         &self,
         name: &str,
@@ -172,7 +172,8 @@ impl Policies {
         Ok(policies)
     }
 
-    /// Reads the weights under a name to say what they are, and keeps it for the next time. `None` if they are gone.
+    /// Reads the weights under a name to say what they are, and keeps it for the next time. `None`
+    /// if they are gone.
     async fn described(&self, name: &str, created_ms: i64) -> Result<Option<WeightsInfo>, Error> {
         let Some(model) = self.model(name).await? else { return Ok(None) };
         let info = WeightsInfo::of(&model);
@@ -192,12 +193,12 @@ impl Policies {
         Ok(PolicyInfo::of(name, WeightsInfo::of(&model)))
     }
 
-    /// Keeps weights under a name, which means these weights for good: a reader of the log of a day knows
-    /// what decided.
+    /// Keeps weights under a name, which means these weights for good: a reader of the log of a day
+    /// knows what decided.
     ///
     /// # Errors
-    /// Returns an error if the bytes are no weight file, [`Error::BadRequest`] if the name is not one of your own or means
-    /// other weights, and [`Error::TooMuch`].
+    /// Returns an error if the bytes are no weight file, [`Error::BadRequest`] if the name is not
+    /// one of your own or means other weights, and [`Error::TooMuch`].
     pub(crate) async fn put(
         &self,
         name: &str,

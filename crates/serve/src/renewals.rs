@@ -11,7 +11,7 @@ use vertifleet_sim::{Decision, Simulation};
 
 use crate::clock::LastTime;
 
-/// The service stays busy for so long after a decision has had to wait.
+/// How long the service counts as busy after a decision has had to wait.
 const BUSY: Duration = Duration::from_secs(1);
 
 /// A thread that recomputes prices, one day after the other.

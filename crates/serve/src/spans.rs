@@ -31,9 +31,9 @@ use crate::error::Error;
 /// What the service is called where it is not told otherwise.
 const NAME: &str = "vertifleet";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
-/// The collector has so long to take a batch.
+/// How long the collector may take for a batch.
 const EXPORT_TIMEOUT: Duration = Duration::from_secs(10);
-/// When the service stops, the collector has so long to take what is left.
+/// How long the collector may take for the last spans when the service stops.
 const LAST_PATIENCE: Duration = Duration::from_secs(3);
 /// The longest answer of a collector that is read.
 const LONGEST_ANSWER: u64 = 64 << 10;

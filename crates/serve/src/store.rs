@@ -267,7 +267,7 @@ impl Store {
         Ok(())
     }
 
-    /// Writes a trifle, to see whether the store takes what it is given.
+    /// Checks that the store can be written to, by a write that changes nothing.
     ///
     /// # Errors
     /// Returns [`Error::Store`] if it does not.

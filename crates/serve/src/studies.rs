@@ -45,8 +45,8 @@ pub(crate) struct StudyInfo {
     pub(crate) id: String,
     /// The name of its network.
     network: String,
-    /// Whether that is a shipped network (`shipped`), a network with such a name that draws other days (`changed`), or
-    /// neither (`own`).
+    /// Whether that is a shipped network (`shipped`), a network with such a name that draws other
+    /// days (`changed`), or neither (`own`).
     #[schema(value_type = String)]
     network_origin: NetworkOrigin,
     /// Its policies. The others are measured against the first.

@@ -17,7 +17,8 @@ use crate::moment::is_by_calendar;
 pub(crate) struct TakenEvent {
     /// Its number.
     pub(crate) seq: u64,
-    /// Its number with a sum over the log up to it. Sent as `Last-Event-ID`, it makes sure that a stream goes on in the same log.
+    /// Its number with a sum over the log up to it. Sent as `Last-Event-ID`, it makes sure that a
+    /// stream goes on in the same log.
     #[schema(rename = "mark", value_type = String, pattern = "^[0-9]{1,19}-[0-9a-f]{8}$")]
     pub(crate) chain: u32,
     /// When it was taken, milliseconds of the Unix clock.

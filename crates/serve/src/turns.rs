@@ -39,7 +39,7 @@ struct Turn {
 }
 
 impl Turns {
-    /// So many turns.
+    /// Turns of which at most `turns` run at once.
     pub(crate) fn new(turns: usize) -> Self {
         let state = State { free: turns, running: HashMap::new(), waiting: Vec::new() };
         Self(Arc::new(Mutex::new(state)))

@@ -704,8 +704,8 @@ class Outlook(TypedDict):
     did.
     """
     upper_bound_usd: NotRequired[float | None]
-    """No way to go on lets the whole day earn more than this, as far as it is known what will happen;
-    dollars. Proven, not estimated; absent if the rest of the day is too large to be bounded quickly.
+    """An upper bound on the profit of the whole day, dollars, given what is known now. Proven, not estimated;
+    absent if the rest of the day is too large to be bounded quickly.
     """
 
 

@@ -169,8 +169,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Takes a decision: the day's policy chooses, or the one that is named, or a person. It is durable when the answer
-         *     comes.
+         * Takes a decision: the day's policy chooses, or the one that is named, or a person. It is durable
+         *     when the answer comes.
          */
         post: operations["take_decision"];
         delete?: never;
@@ -238,7 +238,10 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** The rest of the day as it is expected, now or after any of its events, if a policy takes every decision from then on. */
+        /**
+         * The rest of the day as it is expected, now or after any of its events, if a policy takes every
+         *     decision from then on.
+         */
         get: operations["day_outlook"];
         put?: never;
         post?: never;
@@ -290,8 +293,9 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on. A message of the type
-         *     `behind` says in words that the reader was too slow; what it missed follows.
+         * Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on.
+         *     A message of the type `behind` says in words that the reader was too slow; what it missed
+         *     follows.
          */
         get: operations["stream_events"];
         put?: never;
@@ -346,8 +350,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Compares the outlook with what it would be after events that have not happened, with another policy, or with other
-         *     stands or more aircraft. Nothing changes.
+         * Compares the outlook with what it would be after events that have not happened, with another
+         *     policy, or with other stands or more aircraft. Nothing changes.
          */
         post: operations["what_if"];
         delete?: never;
@@ -399,7 +403,10 @@ export interface paths {
         };
         /** Reads a network, with its file. */
         get: operations["read_network"];
-        /** Keeps a network under its name, in the place of one that was uploaded before. Days that were made stay as they are. */
+        /**
+         * Keeps a network under its name, in the place of one that was uploaded before. Days that were
+         *     made stay as they are.
+         */
         put: operations["put_network"];
         post?: never;
         /** Removes a network that was uploaded. Days that were made from it stay as they are. */
@@ -452,10 +459,16 @@ export interface paths {
         };
         /** Reads what is known of a policy. */
         get: operations["read_policy"];
-        /** Keeps the weights of a policy, the bytes of a weight file, under a name. The name means these weights for good. */
+        /**
+         * Keeps the weights of a policy, the bytes of a weight file, under a name. The name means these
+         *     weights for good.
+         */
         put: operations["put_policy"];
         post?: never;
-        /** Removes a policy that was uploaded. A day that it decides on goes on with it until the service starts again. */
+        /**
+         * Removes a policy that was uploaded. A day that it decides on goes on with it until the service
+         *     starts again.
+         */
         delete: operations["delete_policy"];
         options?: never;
         head?: never;
@@ -470,14 +483,15 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Lists the studies that were asked for since the service began, the latest first. It keeps the last 20 that have ended,
-         *     in memory: what a study says follows from what it was asked for, so it can be had again.
+         * Lists the studies that were asked for since the service began, the latest first. It keeps the
+         *     last 20 that have ended, in memory: what a study says follows from what it was asked for, so it
+         *     can be had again.
          */
         get: operations["list_studies"];
         put?: never;
         /**
-         * Plays policies on many days of a network, in the background. One study plays at a time, and eight may wait. It is kept
-         *     until the service stops.
+         * Plays policies on many days of a network, in the background. One study plays at a time, and
+         *     eight may wait. It is kept until the service stops.
          */
         post: operations["make_study"];
         delete?: never;
@@ -512,8 +526,8 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * The first days of a study as each policy played them: the scenarios, and a trace for each policy. The console replays
-         *     them. At most three days, and only the first where they are large.
+         * The first days of a study as each policy played them: the scenarios, and a trace for each
+         *     policy. The console replays them. At most three days, and only the first where they are large.
          */
         get: operations["study_replay"];
         put?: never;
@@ -605,14 +619,15 @@ export interface components {
             to: string;
             /**
              * Format: double
-             * @description What the policy compares its choices by: dollars for policies that price the rest of the day or roll it out,
-             *     dollars an hour for `greedy`. Absent if the policy did not consider it.
+             * @description What the policy compares its choices by: dollars for policies that price the rest of the day
+             *     or roll it out, dollars an hour for `greedy`. Absent if the policy did not consider it.
              */
             value?: number | null;
             /**
              * Format: double
-             * @description Worth at the day's bid prices, dollars: the flight's profit and what being ready there afterwards is worth, less
-             *     the prices of its passengers and its stand. Absent if the policy has no prices.
+             * @description Worth at the day's bid prices, dollars: the flight's profit and what being ready there
+             *     afterwards is worth, less the prices of its passengers and its stand. Absent if the policy
+             *     has no prices.
              */
             worth_usd?: number | null;
         };
@@ -701,7 +716,10 @@ export interface components {
             /** @description Every vertiport. */
             vertiports: components["schemas"]["VertiportState"][];
         };
-        /** @description A difference of two policies, day by day: their daily profit, dollars, with the paired t-test of whether its mean is 0. */
+        /**
+         * @description A difference of two policies, day by day: their daily profit, dollars, with the paired t-test of
+         *     whether its mean is 0.
+         */
         Difference: {
             /** @description Days on which it earned more. */
             days_ahead: number;
@@ -709,7 +727,8 @@ export interface components {
             days_behind: number;
             /**
              * Format: double
-             * @description The chance of a difference as large as this if there were none (two-sided); null with one day.
+             * @description The chance of a difference as large as this if there were none (two-sided); null with one
+             *     day.
              */
             p_value?: number | null;
             /** @description The difference. */
@@ -937,7 +956,8 @@ export interface components {
             events: components["schemas"]["TakenEvent"][];
             /**
              * Format: int64
-             * @description The number to read on after, if there may be more: a page ends at `limit`, or at about 4 MiB.
+             * @description The number to read on after, if there may be more: a page ends at `limit`, or at about 4
+             *     MiB.
              */
             next?: number | null;
         };
@@ -1069,17 +1089,26 @@ export interface components {
         /** @description A day to be made: from a network, or from a scenario. */
         NewDay: {
             /**
-             * @description Where aircraft stand in the morning: the vertiport of each by the id of the aircraft. The others stand where the
-             *     network or the scenario has them.
+             * @description Where aircraft stand in the morning: the vertiport of each by the id of the aircraft. The
+             *     others stand where the network or the scenario has them.
              */
             aircraft?: {
                 [key: string]: string;
             };
-            /** @description Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO 8601. */
+            /**
+             * @description Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO
+             *     8601.
+             */
             date?: string | null;
-            /** @description The passengers who are expected, in place of those of the network or the scenario. A pair without a row has no passengers. */
+            /**
+             * @description The passengers who are expected, in place of those of the network or the scenario. A pair
+             *     without a row has no passengers.
+             */
             forecast?: components["schemas"]["ForecastRow"][] | null;
-            /** @description What people call the day; without it, the name of its scenario, or of its network with the date. */
+            /**
+             * @description What people call the day; without it, the name of its scenario, or of its network with the
+             *     date.
+             */
             name?: string | null;
             /** @description A network that the program ships, or that was uploaded. */
             network?: string | null;
@@ -1089,11 +1118,14 @@ export interface components {
             scenario?: Record<string, never> | null;
             /**
              * Format: int64
-             * @description The seed with which the day is drawn from the network: its forecast and where aircraft stand in the morning, unless
-             *     they are given. 1 if it is absent.
+             * @description The seed with which the day is drawn from the network: its forecast and where aircraft stand
+             *     in the morning, unless they are given. 1 if it is absent.
              */
             seed?: number | null;
-            /** @description The time zone of its clock by its name in the IANA database; without it, that of the network. */
+            /**
+             * @description The time zone of its clock by its name in the IANA database; without it, that of the
+             *     network.
+             */
             time_zone?: string | null;
         };
         /** @description A decision to be taken. */
@@ -1130,14 +1162,14 @@ export interface components {
             /** @description A network that the program ships, or that was uploaded. */
             network?: string | null;
             /**
-             * @description The policies that play the days. The others are measured against the first. `plan` is the planner, which knows the
-             *     days: a reference, not a policy.
+             * @description The policies that play the days. The others are measured against the first. `plan` is the
+             *     planner, which knows the days: a reference, not a policy.
              */
             policies: string[];
             /**
              * Format: int64
-             * @description The seed of the first day, which is that of `random` and `plan` too; with validation days, the number of the first.
-             *     1 if it is absent.
+             * @description The seed of the first day, which is that of `random` and `plan` too; with validation days,
+             *     the number of the first. 1 if it is absent.
              */
             seed?: number | null;
             /** @description Whose days are played. */
@@ -1159,7 +1191,10 @@ export interface components {
         OneOrMore: components["schemas"]["Event"][] | components["schemas"]["Event"];
         /** @description How a day is expected to go on if a policy takes every decision from now on. */
         Outlook: {
-            /** @description Every flight and hold of the day, in the order of decisions: those that were taken, then those that are expected. */
+            /**
+             * @description Every flight and hold of the day, in the order of decisions: those that were taken, then
+             *     those that are expected.
+             */
             legs: components["schemas"]["Leg"][];
             /** @description The latest time that the day has heard of. */
             now: components["schemas"]["Moment"];
@@ -1167,7 +1202,8 @@ export interface components {
             policy: string;
             /**
              * Format: double
-             * @description Profit so far, dollars: of the flights that have been sent off, less what the fleet costs all day.
+             * @description Profit so far, dollars: of the flights that have been sent off, less what the fleet costs
+             *     all day.
              */
             profit_so_far_usd: number;
             /**
@@ -1175,13 +1211,16 @@ export interface components {
              * @description The number of the latest event that it takes into account.
              */
             seq: number;
-            /** @description The policy that was asked, if it could not play the rest of the day in time. The one that is named then did. */
+            /**
+             * @description The policy that was asked, if it could not play the rest of the day in time. The one that is
+             *     named then did.
+             */
             too_late?: string | null;
             /** @description The numbers of the whole day as it is expected to end. */
             totals: components["schemas"]["Totals"];
             /**
              * Format: double
-             * @description No way to go on lets the whole day earn more than this, as far as it is known what will happen; dollars. Proven, not
+             * @description An upper bound on the profit of the whole day, dollars, given what is known now. Proven, not
              *     estimated; absent if the rest of the day is too large to be bounded quickly.
              */
             upper_bound_usd?: number | null;
@@ -1199,8 +1238,8 @@ export interface components {
             to: string;
         };
         /**
-         * @description The passengers of a demand period who still want to fly: those who wait if the period has begun, and those who are
-         *     expected if it has not.
+         * @description The passengers of a demand period who still want to fly: those who wait if the period has begun,
+         *     and those who are expected if it has not.
          */
         PeriodDemand: {
             /** @description Whether the period has begun. */
@@ -1357,8 +1396,8 @@ export interface components {
             /** @description The aircraft. */
             aircraft: string;
             /**
-             * @description Every vertiport, in the order of the day: what flying there would bring, and why it is not possible where it is
-             *     not.
+             * @description Every vertiport, in the order of the day: what flying there would bring, and why it is not
+             *     possible where it is not.
              */
             alternatives: components["schemas"]["Alternative"][];
             /** @description Where it stands. */
@@ -1455,8 +1494,8 @@ export interface components {
             /** @description The name of its network. */
             network: string;
             /**
-             * @description Whether that is a shipped network (`shipped`), a network with such a name that draws other days (`changed`), or
-             *     neither (`own`).
+             * @description Whether that is a shipped network (`shipped`), a network with such a name that draws other
+             *     days (`changed`), or neither (`own`).
              */
             network_origin: string;
             /** @description Its policies. The others are measured against the first. */
@@ -1492,8 +1531,9 @@ export interface components {
             doing?: string | null;
             /**
              * Format: double
-             * @description How much longer it is likely to play, seconds: the rest of this policy as quick as its days so far, the others as
-             *     quick as those before them on the mean. Absent until a day has been played.
+             * @description How much longer it is likely to play, seconds: the rest of this policy as quick as its days
+             *     so far, the others as quick as those before them on the mean. Absent until a day has been
+             *     played.
              */
             left_s?: number | null;
             /** @description What came out for the policies that have played all their days. */
@@ -1559,7 +1599,10 @@ export interface components {
             at_ms: number;
             /** @description The event. */
             event: components["schemas"]["Event"];
-            /** @description Its number with a sum over the log up to it. Sent as `Last-Event-ID`, it makes sure that a stream goes on in the same log. */
+            /**
+             * @description Its number with a sum over the log up to it. Sent as `Last-Event-ID`, it makes sure that a
+             *     stream goes on in the same log.
+             */
             mark: string;
             /** @description What people should look at. */
             notices: string[];
@@ -1670,7 +1713,10 @@ export interface components {
             events?: components["schemas"]["Event"][];
             /** @description The policy that would decide; without it, the day's. */
             policy?: string | null;
-            /** @description Stands (or chargers where they are counted apart) that vertiports would have had since the morning. */
+            /**
+             * @description Stands (or chargers where they are counted apart) that vertiports would have had since the
+             *     morning.
+             */
             stands?: {
                 [key: string]: components["schemas"]["StandCount"];
             };
@@ -1702,7 +1748,7 @@ export interface operations {
                     "text/plain": string;
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1731,7 +1777,7 @@ export interface operations {
                     "application/openmetrics-text": string;
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1760,7 +1806,7 @@ export interface operations {
                     "application/json": Record<string, never>;
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1789,7 +1835,7 @@ export interface operations {
                     "text/plain": string;
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1818,7 +1864,7 @@ export interface operations {
                     "application/json": components["schemas"]["ServiceInfo"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1837,8 +1883,8 @@ export interface operations {
                 /** @description The number of entries, at most 1,000; without it, 100. */
                 limit?: number;
                 /**
-                 * @description Whether each day that is not archived comes with how far it is. A day that has not been used for long is read
-                 *     for it.
+                 * @description Whether each day that is not archived comes with how far it is. A day that has not been used
+                 *     for long is read for it.
                  */
                 progress?: boolean;
             };
@@ -1857,7 +1903,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayList"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1895,7 +1941,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayInfo"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1928,7 +1974,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayInfo"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1960,7 +2006,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1978,7 +2024,10 @@ export interface operations {
                 policy?: string;
                 /** @description The time of the decision; without it, or before what has happened, now. */
                 time?: string;
-                /** @description Milliseconds within which an answer is needed. If the policy is not ready then, a faster one answers. */
+                /**
+                 * @description Milliseconds within which an answer is needed. If the policy is not ready then, a faster one
+                 *     answers.
+                 */
                 deadline_ms?: number;
                 /** @description How times are written in the answer. */
                 times?: components["schemas"]["Times"];
@@ -2003,7 +2052,7 @@ export interface operations {
                     "application/json": components["schemas"]["Proposal"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2035,7 +2084,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2077,7 +2126,7 @@ export interface operations {
                     "application/json": components["schemas"]["TakenDecision"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2115,7 +2164,7 @@ export interface operations {
                     "application/json": components["schemas"]["PeriodDemand"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2129,7 +2178,10 @@ export interface operations {
     list_events: {
         parameters: {
             query?: {
-                /** @description Events after this number. If the day has no event of this number, that is answered by 404 (V602). */
+                /**
+                 * @description Events after this number. If the day has no event of this number, that is answered by 404
+                 *     (V602).
+                 */
                 after?: number;
                 /** @description Their number, at most 10,000; without it, 1,000. There are fewer where they are long. */
                 limit?: number;
@@ -2153,7 +2205,7 @@ export interface operations {
                     "application/json": components["schemas"]["EventList"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2195,7 +2247,7 @@ export interface operations {
                     "application/json": components["schemas"]["Taken"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2231,7 +2283,7 @@ export interface operations {
                     "application/json": components["schemas"]["Ledger"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2248,8 +2300,9 @@ export interface operations {
                 /** @description The policy that decides from now on; without it, the day's. */
                 policy?: string;
                 /**
-                 * @description The number of the event after which the outlook is asked for: 0 asks for the plan of the morning. Without it, the
-                 *     latest. If the day has no such event, that is answered by 404 (V602).
+                 * @description The number of the event after which the outlook is asked for: 0 asks for the plan of the
+                 *     morning. Without it, the latest. If the day has no such event, that is answered by 404
+                 *     (V602).
                  */
                 seq?: number;
                 /** @description How times are written in the answer. */
@@ -2274,7 +2327,7 @@ export interface operations {
                     "application/json": components["schemas"]["Outlook"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2305,7 +2358,7 @@ export interface operations {
                     "application/json": Record<string, never>;
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2320,8 +2373,8 @@ export interface operations {
         parameters: {
             query?: {
                 /**
-                 * @description The number of the event after which the state is asked for; without it, the latest. If the day has no such event,
-                 *     that is answered by 404 (V602).
+                 * @description The number of the event after which the state is asked for; without it, the latest. If the
+                 *     day has no such event, that is answered by 404 (V602).
                  */
                 seq?: number;
                 /** @description How times are written in the answer. */
@@ -2346,7 +2399,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayState"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2361,8 +2414,8 @@ export interface operations {
         parameters: {
             query?: {
                 /**
-                 * @description Events after this number; `Last-Event-ID` takes precedence over it. If the day has no event of this number, the answer is
-                 *     404 (V602).
+                 * @description Events after this number; `Last-Event-ID` takes precedence over it. If the day has no event
+                 *     of this number, the answer is 404 (V602).
                  */
                 after?: number;
                 /** @description How times are written in the events. */
@@ -2388,7 +2441,7 @@ export interface operations {
                     "text/event-stream": components["schemas"]["TakenEvent"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2419,7 +2472,7 @@ export interface operations {
                     "text/csv": unknown;
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2451,7 +2504,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2489,7 +2542,7 @@ export interface operations {
                     "application/json": components["schemas"]["Comparison"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2518,7 +2571,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkList"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2551,7 +2604,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkInfo"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2582,7 +2635,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkInfo"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2617,7 +2670,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkInfo"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2646,7 +2699,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2675,7 +2728,7 @@ export interface operations {
                     "application/json": components["schemas"]["PolicyList"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2708,7 +2761,7 @@ export interface operations {
                     "application/json": components["schemas"]["WeightsInfo"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2739,7 +2792,7 @@ export interface operations {
                     "application/json": components["schemas"]["PolicyInfo"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2774,7 +2827,7 @@ export interface operations {
                     "application/json": components["schemas"]["PolicyInfo"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2803,7 +2856,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2832,7 +2885,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyList"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2868,7 +2921,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyInfo"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2899,7 +2952,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyInfo"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2928,7 +2981,7 @@ export interface operations {
                 };
                 content?: never;
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2959,7 +3012,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyReplay"];
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2990,7 +3043,7 @@ export interface operations {
                     "text/html": string;
                 };
             };
-            /** @description EventKind is wrong (RFC 9457) */
+            /** @description What is wrong (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;

@@ -24,7 +24,8 @@ impl Times {
     /// Writes an answer about a day.
     ///
     /// # Errors
-    /// Returns [`Error::BadRequest`] if dates are asked for and the day has none, and the errors of `write`.
+    /// Returns [`Error::BadRequest`] if dates are asked for and the day has none, and the errors of
+    /// `write`.
     pub(super) fn of<T>(
         self,
         day: &DayCell,

@@ -89,8 +89,8 @@ pub(crate) struct Listed {
     /// The number of entries, at most 1,000; without it, 100.
     #[param(inline)]
     limit: Option<PageSize<1_000>>,
-    /// Whether each day that is not archived comes with how far it is. A day that has not been used for long is read
-    /// for it.
+    /// Whether each day that is not archived comes with how far it is. A day that has not been used
+    /// for long is read for it.
     #[serde(default)]
     progress: bool,
 }
@@ -230,7 +230,8 @@ pub(super) async fn list(
     Ok(json(StatusCode::OK, &DayList { days, next }))
 }
 
-/// How far a day is; `None` if it was deleted meanwhile, or if it is damaged, which its own address answers.
+/// How far a day is; `None` if it was deleted meanwhile, or if it is damaged, which its own address
+/// answers.
 async fn progress_of(service: &Service, id: &str) -> Result<Option<DayProgress>, Error> {
     let day = match service.days.get(id).await {
         Err(Error::NotFound { .. } | Error::BadData { .. }) => return Ok(None),
@@ -344,8 +345,8 @@ pub(super) async fn delete(
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct At {
-    /// The number of the event after which the state is asked for; without it, the latest. If the day has no such event,
-    /// that is answered by 404 (V602).
+    /// The number of the event after which the state is asked for; without it, the latest. If the
+    /// day has no such event, that is answered by 404 (V602).
     #[param(inline)]
     seq: Option<EventNumber>,
     /// How times are written in the answer.

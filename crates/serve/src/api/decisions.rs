@@ -23,9 +23,9 @@ use crate::moment::{Moment, by_calendar};
 use crate::service::Service;
 use crate::taken_event::TakenEvent;
 
-/// A policy is asked so often when events come in between.
+/// How often a policy is asked for one decision if events come in between.
 const TRIES: u32 = 5;
-/// The policy that a person overrules has so long to say what it would have done.
+/// How long the service waits for the proposal of a policy that a person overrules.
 const OVERRULED_TIMEOUT: Duration = Duration::from_millis(100);
 /// Decides when the policy that was asked is late.
 pub(super) const QUICK_POLICY: &str = "greedy";
@@ -39,7 +39,8 @@ pub(crate) struct DecisionQuery {
     policy: Option<String>,
     /// The time of the decision; without it, or before what has happened, now.
     time: Option<String>,
-    /// Milliseconds within which an answer is needed. If the policy is not ready then, a faster one answers.
+    /// Milliseconds within which an answer is needed. If the policy is not ready then, a faster one
+    /// answers.
     #[param(format = Int64, maximum = 4_294_967_295u32)]
     deadline_ms: Option<u32>,
     /// How times are written in the answer.
@@ -111,8 +112,8 @@ pub(super) async fn propose(
     times.answer(&day, proposal.seq, &proposal).await
 }
 
-/// Takes a decision: the day's policy chooses, or the one that is named, or a person. It is durable when the answer
-/// comes.
+/// Takes a decision: the day's policy chooses, or the one that is named, or a person. It is durable
+/// when the answer comes.
 #[utoipa::path(
     operation_id = "take_decision", post, path = "/v1/days/{day}/decisions", tag = "decisions", params(("day" = String, Path)),
     request_body = NewDecision,
@@ -158,8 +159,8 @@ async fn by_hand(
     take(service, day, writer, Event { time, what }, None).await
 }
 
-/// Takes the decision of a policy. It holds for the state that it was made for: if an event comes in between, the policy
-/// is asked again, unless the writer wanted this very state.
+/// Takes the decision of a policy. It holds for the state that it was made for: if an event comes
+/// in between, the policy is asked again, unless the writer wanted this very state.
 async fn by_policy(
     service: &Service,
     day: &Arc<DayCell>,
@@ -235,8 +236,8 @@ async fn proposed(
     Ok(proposal)
 }
 
-/// Asks a policy on a thread of its own, since it may take a while. Nothing takes a thread while it waits for its turn, so
-/// that a client that gives up leaves no work behind that has not begun.
+/// Asks a policy on a thread of its own, since it may take a while. Nothing takes a thread while it
+/// waits for its turn, so that a client that gives up leaves no work behind that has not begun.
 async fn ask(
     service: &Service,
     day: &Arc<DayCell>,

@@ -28,8 +28,8 @@ pub(crate) struct InPeriod {
     times: Times,
 }
 
-/// The passengers of a demand period who still want to fly: those who wait if the period has begun, and those who are
-/// expected if it has not.
+/// The passengers of a demand period who still want to fly: those who wait if the period has begun,
+/// and those who are expected if it has not.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct PeriodDemand {
     /// The number of the latest event.

@@ -37,7 +37,7 @@ use crate::problem::Problem;
     tags(
         (name = "service", description = "The service itself"),
         (name = "days", description = "Days and their state"),
-        (name = "events", description = "EventKind happens on a day"),
+        (name = "events", description = "What happens on a day"),
         (name = "decisions", description = "Where an aircraft flies next, and why"),
         (name = "outlooks", description = "How a day goes on, and what it would be otherwise"),
         (name = "networks", description = "Networks from which days are made"),
@@ -52,12 +52,14 @@ pub fn openapi() -> String {
     Api::openapi().to_pretty_json().expect("plain data can be written") + "\n"
 }
 
-/// What holds for every path: errors are problem details, requests may need a token, writes may have a key.
+/// What holds for every path: errors are problem details, requests may need a token, writes may
+/// have a key.
 struct Everywhere;
 
 /// The paths that need no token.
 const OPEN: [&str; 2] = ["/healthz", "/readyz"];
-/// The writes that are carried out once for each key, and those that can be made for one state of the day.
+/// The writes that are carried out once for each key, and those that can be made for one state of
+/// the day.
 const KEYED: [&str; 4] = ["make_day", "add_events", "take_decision", "make_study"];
 const MATCHED: [&str; 5] =
     ["add_events", "take_decision", "archive_day", "unarchive_day", "delete_day"];
@@ -97,8 +99,9 @@ impl Modify for Everywhere {
     }
 }
 
-/// Says of events and routes that they have no other members, and of lists of events how long they are. As it is derived,
-/// an event is put together from two parts, and neither part could say so without forbidding the other.
+/// Says of events and routes that they have no other members, and of lists of events how long they
+/// are. As it is derived, an event is put together from two parts, and neither part could say so
+/// without forbidding the other.
 fn close_events(schemas: &mut BTreeMap<String, RefOr<Schema>>) {
     let (Some(RefOr::T(Schema::AllOf(parts))), Some(RefOr::T(Schema::OneOf(mut kinds)))) =
         (schemas.get("Event").cloned(), schemas.remove("EventKind"))
@@ -141,7 +144,7 @@ fn objects(one_of: &mut OneOf) -> impl Iterator<Item = &mut Object> {
 fn complete(operation: &mut Operation) {
     let problem = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem"))).build();
     let default = ResponseBuilder::new()
-        .description("EventKind is wrong (RFC 9457)")
+        .description("What is wrong (RFC 9457)")
         .content("application/problem+json", problem)
         .build();
     operation.responses.responses.insert("default".to_owned(), RefOr::T(default));

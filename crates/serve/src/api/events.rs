@@ -37,7 +37,8 @@ enum OneOrMore {
 }
 
 impl OneOrMore {
-    /// Reads a body. Which of the two it is shows in its first character, so that a message names what is wrong inside.
+    /// Reads a body. Which of the two it is shows in its first character, so that a message names
+    /// what is wrong inside.
     fn parse(body: &[u8]) -> Result<Self, Error> {
         match body.iter().find(|byte| !byte.is_ascii_whitespace()) {
             Some(b'[') => Self::several(body).map(Self::More),
@@ -106,7 +107,8 @@ impl Taken {
 pub(crate) struct EventList {
     /// The events, in order.
     events: Vec<TakenEvent>,
-    /// The number to read on after, if there may be more: a page ends at `limit`, or at about 4 MiB.
+    /// The number to read on after, if there may be more: a page ends at `limit`, or at about 4
+    /// MiB.
     next: Option<u64>,
 }
 
@@ -115,7 +117,8 @@ pub(crate) struct EventList {
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Page {
-    /// Events after this number. If the day has no event of this number, that is answered by 404 (V602).
+    /// Events after this number. If the day has no event of this number, that is answered by 404
+    /// (V602).
     #[serde(default)]
     #[param(inline)]
     after: EventNumber,

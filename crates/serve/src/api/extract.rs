@@ -36,7 +36,8 @@ impl<S: Send + Sync, T: DeserializeOwned> FromRequestParts<S> for Validated<T> {
     }
 }
 
-/// The number of an event. Beyond those that the description has, whose numbers are of 64 bits with a sign, nothing is taken.
+/// The number of an event. Beyond those that the description has, whose numbers are of 64 bits with
+/// a sign, nothing is taken.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct EventNumber(pub(super) u64);
 

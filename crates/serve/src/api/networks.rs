@@ -50,7 +50,8 @@ pub(super) async fn read(
     Ok(json(StatusCode::OK, &NetworkInfo { toml, ..NetworkInfo::of(&network, is_shipped) }))
 }
 
-/// Keeps a network under its name, in the place of one that was uploaded before. Days that were made stay as they are.
+/// Keeps a network under its name, in the place of one that was uploaded before. Days that were
+/// made stay as they are.
 #[utoipa::path(operation_id = "put_network", put, path = "/v1/networks/{network}", tag = "networks", params(("network" = String, Path)), request_body = NewNetwork, responses((status = 200, body = NetworkInfo)))]
 pub(super) async fn put(
     State(service): State<Arc<Service>>,

@@ -20,26 +20,30 @@ use crate::service::Service;
 pub(crate) struct NewDay {
     /// A network that the program ships, or that was uploaded.
     network: Option<String>,
-    /// The seed with which the day is drawn from the network: its forecast and where aircraft stand in the morning, unless
-    /// they are given. 1 if it is absent.
+    /// The seed with which the day is drawn from the network: its forecast and where aircraft stand
+    /// in the morning, unless they are given. 1 if it is absent.
     #[schema(maximum = 1_099_511_627_775u64)]
     seed: Option<u64>,
     /// A whole scenario, as a scenario file has it.
     #[schema(value_type = Option<Object>)]
     scenario: Option<Box<RawValue>>,
-    /// The passengers who are expected, in place of those of the network or the scenario. A pair without a row has no passengers.
+    /// The passengers who are expected, in place of those of the network or the scenario. A pair
+    /// without a row has no passengers.
     forecast: Option<Vec<ForecastRow>>,
-    /// Where aircraft stand in the morning: the vertiport of each by the id of the aircraft. The others stand where the
-    /// network or the scenario has them.
+    /// Where aircraft stand in the morning: the vertiport of each by the id of the aircraft. The
+    /// others stand where the network or the scenario has them.
     #[serde(default)]
     aircraft: BTreeMap<String, String>,
     #[schema(min_length = 1, max_length = 80)]
-    /// What people call the day; without it, the name of its scenario, or of its network with the date.
+    /// What people call the day; without it, the name of its scenario, or of its network with the
+    /// date.
     name: Option<String>,
-    /// Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO 8601.
+    /// Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO
+    /// 8601.
     #[schema(pattern = "^(19[7-9][0-9]|2[01][0-9]{2})-[0-9]{2}-[0-9]{2}$")]
     date: Option<String>,
-    /// The time zone of its clock by its name in the IANA database; without it, that of the network.
+    /// The time zone of its clock by its name in the IANA database; without it, that of the
+    /// network.
     time_zone: Option<String>,
     /// The policy that decides when none is asked for.
     pub(super) policy: Option<String>,

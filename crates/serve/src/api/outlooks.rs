@@ -28,8 +28,9 @@ use crate::service::Service;
 pub(crate) struct By {
     /// The policy that decides from now on; without it, the day's.
     policy: Option<String>,
-    /// The number of the event after which the outlook is asked for: 0 asks for the plan of the morning. Without it, the
-    /// latest. If the day has no such event, that is answered by 404 (V602).
+    /// The number of the event after which the outlook is asked for: 0 asks for the plan of the
+    /// morning. Without it, the latest. If the day has no such event, that is answered by 404
+    /// (V602).
     #[param(inline)]
     seq: Option<EventNumber>,
     /// How times are written in the answer.
@@ -37,7 +38,8 @@ pub(crate) struct By {
     times: Times,
 }
 
-/// The rest of the day as it is expected, now or after any of its events, if a policy takes every decision from then on.
+/// The rest of the day as it is expected, now or after any of its events, if a policy takes every
+/// decision from then on.
 #[utoipa::path(
     operation_id = "day_outlook", get, path = "/v1/days/{day}/outlook", tag = "outlooks", params(("day" = String, Path), By),
     responses((status = 200, body = Outlook))
@@ -62,7 +64,8 @@ pub(super) async fn outlook(
     times.answer(&day, outlook.seq, &outlook).await
 }
 
-/// When a policy that has not played the rest of a day is too late: a quick one then has as much time again.
+/// When a policy that has not played the rest of a day is too late: a quick one then has as much
+/// time again.
 fn patience(service: &Service) -> Instant {
     Instant::now() + service.limits.request / 2
 }
@@ -79,8 +82,8 @@ async fn named(
     Ok(NamedPolicy { name, resolved })
 }
 
-/// Compares the outlook with what it would be after events that have not happened, with another policy, or with other
-/// stands or more aircraft. Nothing changes.
+/// Compares the outlook with what it would be after events that have not happened, with another
+/// policy, or with other stands or more aircraft. Nothing changes.
 #[utoipa::path(
     operation_id = "what_if", post, path = "/v1/days/{day}/what-if", tag = "outlooks", params(("day" = String, Path), Written),
     request_body = Option<WhatIf>,

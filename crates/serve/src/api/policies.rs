@@ -45,7 +45,8 @@ pub(super) async fn read(
     Ok(json(StatusCode::OK, &service.policies.info(&name).await?))
 }
 
-/// Keeps the weights of a policy, the bytes of a weight file, under a name. The name means these weights for good.
+/// Keeps the weights of a policy, the bytes of a weight file, under a name. The name means these
+/// weights for good.
 #[utoipa::path(operation_id = "put_policy", put, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path, pattern = "^[a-z0-9_-][a-z0-9._-]{0,39}$")), request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = PolicyInfo)))]
 pub(super) async fn put(
     State(service): State<Arc<Service>>,
@@ -60,7 +61,8 @@ pub(super) async fn put(
     Ok(json(StatusCode::OK, &info))
 }
 
-/// Removes a policy that was uploaded. A day that it decides on goes on with it until the service starts again.
+/// Removes a policy that was uploaded. A day that it decides on goes on with it until the service
+/// starts again.
 #[utoipa::path(operation_id = "delete_policy", delete, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path)), responses((status = 204)))]
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,

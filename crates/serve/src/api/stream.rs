@@ -28,14 +28,15 @@ use crate::store::Store;
 use crate::taken_event::TakenEvent;
 use crate::tokens::Role;
 
-/// Events that are read from the store at once. They are written out between other requests, so they are few.
+/// Events that are read from the store at once. They are written out between other requests, so
+/// they are few.
 const PAGE: u32 = 250;
 
 /// How often a reader looks whether its token is still in force and its day is still in memory.
 const POLL_INTERVAL: Duration = Duration::from_millis(250);
 
-/// After so long without an event a reader is sent an empty line, by which it knows that the service lives, and proxies do not end
-/// the stream.
+/// After so long without an event a reader is sent an empty line, by which it knows that the
+/// service lives, and proxies do not end the stream.
 const KEEP_ALIVE: Duration = Duration::from_secs(2);
 
 /// Where the stream begins.
@@ -43,8 +44,8 @@ const KEEP_ALIVE: Duration = Duration::from_secs(2);
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct From {
-    /// Events after this number; `Last-Event-ID` takes precedence over it. If the day has no event of this number, the answer is
-    /// 404 (V602).
+    /// Events after this number; `Last-Event-ID` takes precedence over it. If the day has no event
+    /// of this number, the answer is 404 (V602).
     #[param(inline)]
     after: Option<EventNumber>,
     /// How times are written in the events.
@@ -52,8 +53,8 @@ pub(crate) struct From {
     times: Times,
 }
 
-/// A reader of a day's events. It reads from the store what was there before it came and what it missed because it was
-/// slow, and gets the rest as it is stored.
+/// A reader of a day's events. It reads from the store what was there before it came and what it
+/// missed because it was slow, and gets the rest as it is stored.
 struct Reader {
     day: Arc<DayCell>,
     store: Store,
@@ -84,8 +85,9 @@ impl Drop for Reader {
     }
 }
 
-/// Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on. A message of the type
-/// `behind` says in words that the reader was too slow; what it missed follows.
+/// Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on.
+/// A message of the type `behind` says in words that the reader was too slow; what it missed
+/// follows.
 #[utoipa::path(
     operation_id = "stream_events", get, path = "/v1/days/{day}/stream", tag = "events", params(("day" = String, Path), From),
     responses((status = 200, content_type = "text/event-stream", body = TakenEvent))
@@ -199,8 +201,8 @@ impl Reader {
         Some(())
     }
 
-    /// Sees whether the reader may still read. If the day in memory was thrown away, goes on with the one that took its place;
-    /// `None` if there is none, or if its log is another one.
+    /// Sees whether the reader may still read. If the day in memory was thrown away, goes on with
+    /// the one that took its place; `None` if there is none, or if its log is another one.
     async fn renew(&mut self) -> Option<()> {
         self.looked = Instant::now();
         self.service.access.may(&self.headers, Role::Read).await.ok()?;

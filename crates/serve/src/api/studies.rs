@@ -28,15 +28,16 @@ pub(crate) struct StudyList {
     studies: Vec<StudyInfo>,
 }
 
-/// Lists the studies that were asked for since the service began, the latest first. It keeps the last 20 that have ended,
-/// in memory: what a study says follows from what it was asked for, so it can be had again.
+/// Lists the studies that were asked for since the service began, the latest first. It keeps the
+/// last 20 that have ended, in memory: what a study says follows from what it was asked for, so it
+/// can be had again.
 #[utoipa::path(operation_id = "list_studies", get, path = "/v1/studies", tag = "studies", responses((status = 200, body = StudyList)))]
 pub(super) async fn list(State(service): State<Arc<Service>>) -> Response {
     json(StatusCode::OK, &StudyList { studies: service.studies.list() })
 }
 
-/// Plays policies on many days of a network, in the background. One study plays at a time, and eight may wait. It is kept
-/// until the service stops.
+/// Plays policies on many days of a network, in the background. One study plays at a time, and
+/// eight may wait. It is kept until the service stops.
 #[utoipa::path(operation_id = "make_study", post, path = "/v1/studies", tag = "studies", request_body = NewStudy, responses((status = 201, body = StudyInfo)))]
 pub(super) async fn create(
     State(service): State<Arc<Service>>,
@@ -77,8 +78,8 @@ pub(super) async fn report(
     Ok((headers, page).into_response())
 }
 
-/// The first days of a study as each policy played them: the scenarios, and a trace for each policy. The console replays
-/// them. At most three days, and only the first where they are large.
+/// The first days of a study as each policy played them: the scenarios, and a trace for each
+/// policy. The console replays them. At most three days, and only the first where they are large.
 #[utoipa::path(operation_id = "study_replay", get, path = "/v1/studies/{study}/replay", tag = "studies", params(("study" = String, Path)), responses((status = 200, body = StudyReplay)))]
 pub(super) async fn replay(
     State(service): State<Arc<Service>>,
@@ -133,8 +134,9 @@ pub(super) async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// What a page may use: its own style sheet and script, and the script and the style sheet of the replay within it, which
-/// inherits this. Nothing of it belongs to the service: it cannot read what the console keeps.
+/// What a page may use: its own style sheet and script, and the script and the style sheet of the
+/// replay within it, which inherits this. Nothing of it belongs to the service: it cannot read what
+/// the console keeps.
 fn policy_of(page: &str) -> HeaderValue {
     let style = page.split_once("<style>").and_then(|(_, rest)| rest.split_once("</style>"));
     let style = style.map_or("", |(style, _)| style);

@@ -2,9 +2,9 @@
 //! beside it.
 //!
 //! A description is what a program answered when it read the network or the weights, as JSON. It
-//! counts for that version of the program alone, and as long as what it describes is not uploaded
-//! anew, so that versions that share a database do not mislead each other. Without one, the network
-//! or the weights are read again.
+//! counts for that version of the program alone, and until what it describes is uploaded again, so
+//! that versions that share a database do not mislead each other. Without one, the network or the
+//! weights are read again.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;

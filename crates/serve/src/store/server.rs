@@ -9,10 +9,10 @@ use super::Store;
 use crate::clock::LastTime;
 use crate::error::Error;
 
-/// A server that does not answer for so long hangs.
+/// A server that does not answer within this time hangs.
 pub(super) const TIMEOUT: Duration = Duration::from_secs(5);
-/// For so long after that it is asked nothing, so that a request with several questions waits for
-/// one of them only.
+/// How long the server is asked nothing after that, so that a request with several questions waits
+/// for one of them only.
 const PAUSE: Duration = Duration::from_secs(1);
 
 #[derive(Clone)]

@@ -30,15 +30,15 @@ pub(crate) struct NewStudy {
     network: Option<String>,
     /// The text of a network file in place of a name. It is not kept.
     toml: Option<String>,
-    /// The policies that play the days. The others are measured against the first. `plan` is the planner, which knows the
-    /// days: a reference, not a policy.
+    /// The policies that play the days. The others are measured against the first. `plan` is the
+    /// planner, which knows the days: a reference, not a policy.
     #[schema(min_items = 1, max_items = 10)]
     policies: Vec<String>,
     /// How many days are played.
     #[schema(format = Int64, minimum = 1, maximum = 1_000)]
     days: u32,
-    /// The seed of the first day, which is that of `random` and `plan` too; with validation days, the number of the first.
-    /// 1 if it is absent.
+    /// The seed of the first day, which is that of `random` and `plan` too; with validation days,
+    /// the number of the first. 1 if it is absent.
     #[schema(maximum = 1_099_511_627_775u64)]
     seed: Option<u64>,
     /// Whose days are played.
@@ -87,8 +87,8 @@ impl NewStudy {
     /// Checks all that can be checked before days are played.
     ///
     /// # Errors
-    /// Returns [`Error::BadRequest`], [`Error::TooMuch`], [`Error::NotFound`], or what is wrong with the network or the
-    /// policies.
+    /// Returns [`Error::BadRequest`], [`Error::TooMuch`], [`Error::NotFound`], or what is wrong
+    /// with the network or the policies.
     pub(crate) async fn check(
         self,
         store: &Store,
@@ -159,7 +159,8 @@ impl Asked {
         Comparison::new(&self.network, &selection, days, self.bound_step, stop)
     }
 
-    /// The command that plays the same study. Networks and weights of one's own are named as they are downloaded.
+    /// The command that plays the same study. Networks and weights of one's own are named as they
+    /// are downloaded.
     pub(super) fn command(&self) -> String {
         let DrawnDays { first, days, .. } = self.drawn;
         let (name, policies) = (self.network.name(), self.policies.join(","));

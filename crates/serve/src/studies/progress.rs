@@ -20,8 +20,9 @@ pub(crate) struct StudyProgress {
     doing: Option<String>,
     /// The share of all that is to be played that has been, 0 to 1; every policy counts the same.
     share: f64,
-    /// How much longer it is likely to play, seconds: the rest of this policy as quick as its days so far, the others as
-    /// quick as those before them on the mean. Absent until a day has been played.
+    /// How much longer it is likely to play, seconds: the rest of this policy as quick as its days
+    /// so far, the others as quick as those before them on the mean. Absent until a day has been
+    /// played.
     #[serde(skip_serializing_if = "Option::is_none")]
     left_s: Option<f64>,
     /// What came out for the policies that have played all their days.
@@ -87,7 +88,8 @@ impl Progress {
         StudyProgress { doing: Some(doing.clone()), share, left_s, played: self.played.clone() }
     }
 
-    /// How much longer it takes, if the share `done` of this phase took `so_far` and all phases before it took `before`.
+    /// How much longer it takes, if the share `done` of this phase took `so_far` and all phases
+    /// before it took `before`.
     fn left_s(&self, done: f64, before: Duration, so_far: Duration) -> Option<f64> {
         let (before_s, so_far_s) = (before.as_secs_f64(), so_far.as_secs_f64());
         let whole_phase_s = match (done > 0.0, self.over) {

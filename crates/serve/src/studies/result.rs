@@ -14,7 +14,8 @@ pub(crate) struct StudyResult {
     program_version: &'static str,
     /// The seed of the first day; the others follow one by one.
     first_seed: u64,
-    /// Upper bound of a day's profit, dollars, if bounds were asked for. No schedule earns more; proven, not estimated.
+    /// Upper bound of a day's profit, dollars, if bounds were asked for. No schedule earns more;
+    /// proven, not estimated.
     #[serde(skip_serializing_if = "Option::is_none")]
     upper_bound_usd: Option<Estimate>,
     /// Every policy, in the order in which they were asked for.
@@ -78,12 +79,14 @@ pub(crate) struct Estimate {
     half_width_95: Option<f64>,
 }
 
-/// A difference of two policies, day by day: their daily profit, dollars, with the paired t-test of whether its mean is 0.
+/// A difference of two policies, day by day: their daily profit, dollars, with the paired t-test of
+/// whether its mean is 0.
 #[derive(Debug, Clone, Copy, Serialize, ToSchema)]
 pub(crate) struct Difference {
     /// The difference.
     profit_usd: Estimate,
-    /// The chance of a difference as large as this if there were none (two-sided); null with one day.
+    /// The chance of a difference as large as this if there were none (two-sided); null with one
+    /// day.
     p_value: Option<f64>,
     /// Days on which it earned more.
     days_ahead: usize,
@@ -92,7 +95,8 @@ pub(crate) struct Difference {
 }
 
 impl StudyResult {
-    /// What a comparison says of the policies with these names, the first of which is the reference.
+    /// What a comparison says of the policies with these names, the first of which is the
+    /// reference.
     pub(super) fn of(report: &ComparisonReport, policies: &[String]) -> Self {
         let named = |name: &String| report.policies.iter().find(|policy| policy.name == *name);
         let policies: Vec<&PolicySummary> = policies.iter().filter_map(named).collect();
