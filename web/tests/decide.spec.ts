@@ -122,7 +122,7 @@ test('another decision needs a reason, and the log keeps it', async ({ page, pro
   await page.keyboard.press('o')
   await expect(panel(page).getByRole('combobox', { name: 'Destination' })).toBeFocused()
   await panel(page).getByRole('button', { name: 'Override', exact: true }).click()
-  await expect(panel(page).getByText('Say why')).toBeVisible()
+  await expect(panel(page).getByText('Enter a reason')).toBeVisible()
   expect(await fleet.events()).toHaveLength(0)
   await panel(page).getByRole('textbox', { name: 'Reason' }).fill('the crew lives there')
   const to = await panel(page).getByRole('combobox', { name: 'Destination' }).inputValue()

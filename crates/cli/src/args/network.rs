@@ -180,7 +180,7 @@ pub(crate) struct NewArguments {
     /// Name of the network
     #[arg(long)]
     pub(crate) name: Option<String>,
-    /// A vertiport as ID,LATITUDE,LONGITUDE[,STANDS], with 4 stands if not given; once for each
+    /// A vertiport as `ID,LATITUDE,LONGITUDE[,STANDS]`, with 4 stands if not given; once for each
     #[arg(long = "vertiport", value_name = "VERTIPORT", allow_hyphen_values = true, value_parser = parse_vertiport)]
     pub(crate) vertiports: Vec<NewVertiport>,
     /// Number of aircraft
