@@ -111,7 +111,7 @@ pub(crate) fn sweep_report(
         let summary = SweepReport::of(&records)?;
         records.write_journal(&folder)?;
         let report = vertifleet_report::sweep(&summary, &records);
-        Ok::<_, vertifleet_study::Error>(folder::write_beside_journal(&report, &folder)?.page)
+        folder::write_beside_journal(&report, &folder)
     };
     Ok(py.detach(write).map_err(Failure::from)?)
 }

@@ -43,17 +43,18 @@ pub fn account<'a>(account: &Account, replayed: &'a [ReplayedDay]) -> Report<'a>
     ];
     let waits = waits(account.scenario().operations.passenger_wait_s);
     facts.extend(waits.map(|waits| ("Passengers wait", waits)));
+    let played = format!("{} with {}", account.day, account.policy);
     Report {
-        title: format!("{} with {}", account.day, account.policy),
-        opening: format!("{} with {}", account.day, account.policy),
+        title: played.clone(),
+        opening: played.clone(),
         subject: "a day and where its money is",
-        heading: format!("{} with {}", account.day, account.policy),
+        heading: played,
         headline,
         facts,
         sections: sections(account),
         replayed,
         files: Files::Within(account.day.clone()),
-        mark: "\n<!-- vertifleet-day/1 -->\n",
+        kind: Some(&DAY_PAGE),
         ..Report::default()
     }
 }

@@ -2,14 +2,9 @@
 
 use vertifleet_picture::ledger_lines;
 use vertifleet_picture::numbers::grouped;
-
-use vertifleet_study::account::{Account, AircraftUse};
+use vertifleet_study::account::{Account, AircraftUse, Loss};
 
 use crate::report::Table;
-
-fn cells(texts: &[&str]) -> Vec<String> {
-    texts.iter().map(|&text| text.to_owned()).collect()
-}
 
 /// Where the money comes from and goes to.
 pub(crate) fn ledger(account: &Account) -> Table {
@@ -22,87 +17,68 @@ pub(crate) fn ledger(account: &Account) -> Table {
             String::new()
         }
     };
-    let mut rows = vec![cells(&["ledger", "$", "share of revenue"])];
-    for (name, usd) in lines {
-        rows.push(vec![name.to_owned(), grouped(usd, 2), share(usd)]);
-    }
-    Table { rows, best: Vec::new() }
+    let rows = lines.into_iter();
+    Table::new(["ledger", "$", "share of revenue"])
+        .with_rows(rows.map(|(name, usd)| vec![name.to_owned(), grouped(usd, 2), share(usd)]))
+}
+
+/// The columns of demand.
+const DEMAND: [&str; 4] = ["wanted", "carried", "spilled", "margin spilled, $"];
+
+/// The cells of demand.
+fn demand(demand: &Loss) -> [String; 4] {
+    [
+        grouped(demand.wanted as f64, 0),
+        grouped(demand.carried as f64, 0),
+        grouped(demand.spilled as f64, 0),
+        grouped(demand.spilled_margin_usd, 0),
+    ]
 }
 
 /// Demand served and spilled by period.
 pub(crate) fn periods(account: &Account) -> Table {
-    let head =
-        ["from", "wanted", "carried", "spilled", "margin spilled, $", "flights", "empty", "holds"];
-    let mut rows = vec![cells(&head)];
-    rows.extend(account.periods.iter().map(|one| {
-        vec![
-            one.period.clone(),
-            grouped(one.demand.wanted as f64, 0),
-            grouped(one.demand.carried as f64, 0),
-            grouped(one.demand.spilled as f64, 0),
-            grouped(one.demand.spilled_margin_usd, 0),
-            one.flights.to_string(),
-            one.repositioning_flights.to_string(),
-            one.holds.to_string(),
-        ]
-    }));
-    Table { rows, best: Vec::new() }
+    let columns = ["from"].into_iter().chain(DEMAND).chain(["flights", "empty", "holds"]);
+    Table::new(columns).with_rows(account.periods.iter().map(|one| {
+        let mut row = vec![one.period.clone()];
+        row.extend(demand(&one.demand));
+        row.extend(
+            [one.flights, one.repositioning_flights, one.holds].map(|count| count.to_string()),
+        );
+        row
+    }))
 }
 
 /// The pairs with the most money spilled, of those that can be flown.
 pub(crate) fn pairs(account: &Account, most: usize) -> Table {
-    let head = [
-        "pair",
-        "wanted",
-        "carried",
-        "spilled",
-        "margin spilled, $",
-        "flights",
-        "empty",
-        "profit, $",
-    ];
-    let mut rows = vec![cells(&head)];
+    let columns = ["pair"].into_iter().chain(DEMAND).chain(["flights", "empty", "profit, $"]);
     let can_be_flown = account.pairs.iter().filter(|one| one.can_be_flown);
-    rows.extend(can_be_flown.take(most).map(|one| {
-        vec![
-            format!("{} -> {}", one.from, one.to),
-            grouped(one.demand.wanted as f64, 0),
-            grouped(one.demand.carried as f64, 0),
-            grouped(one.demand.spilled as f64, 0),
-            grouped(one.demand.spilled_margin_usd, 0),
-            one.flights.to_string(),
-            one.repositioning_flights.to_string(),
-            grouped(one.profit_usd, 0),
-        ]
-    }));
-    Table { rows, best: Vec::new() }
+    Table::new(columns).with_rows(can_be_flown.take(most).map(|one| {
+        let mut row = vec![format!("{} -> {}", one.from, one.to)];
+        row.extend(demand(&one.demand));
+        row.extend([one.flights, one.repositioning_flights].map(|count| count.to_string()));
+        row.push(grouped(one.profit_usd, 0));
+        row
+    }))
 }
 
 /// The pairs and periods with the most money spilled, of those that can be flown.
 pub(crate) fn worst_cells(account: &Account, most: usize) -> Table {
-    let mut rows =
-        vec![cells(&["pair", "from", "wanted", "carried", "spilled", "margin spilled, $"])];
     let can_be_flown = account.spilled.iter().filter(|one| one.can_be_flown);
-    rows.extend(can_be_flown.take(most).map(|one| {
-        vec![
-            format!("{} -> {}", one.from, one.to),
-            one.period.clone(),
-            grouped(one.demand.wanted as f64, 0),
-            grouped(one.demand.carried as f64, 0),
-            grouped(one.demand.spilled as f64, 0),
-            grouped(one.demand.spilled_margin_usd, 0),
-        ]
-    }));
-    Table { rows, best: Vec::new() }
+    Table::new(["pair", "from"].into_iter().chain(DEMAND)).with_rows(can_be_flown.take(most).map(
+        |one| {
+            let mut row = vec![format!("{} -> {}", one.from, one.to), one.period.clone()];
+            row.extend(demand(&one.demand));
+            row
+        },
+    ))
 }
 
 /// How full the vertiports were, and what their stands are worth if that is known.
 pub(crate) fn vertiports(account: &Account) -> Table {
     let is_worth_known = account.vertiports.iter().any(|one| one.stand_worth.is_some());
-    let mut head = cells(&["vertiport", "room", "departures", "arrivals", "taken", "full"]);
-    head.extend(is_worth_known.then(|| "one more stand before its cost, $".to_owned()));
-    let mut rows = vec![head];
-    rows.extend(account.vertiports.iter().map(|one| {
+    let mut columns = vec!["vertiport", "room", "departures", "arrivals", "taken", "full"];
+    columns.extend(is_worth_known.then_some("one more stand before its cost, $"));
+    Table::new(columns).with_rows(account.vertiports.iter().map(|one| {
         let mut row = vec![
             one.id.clone(),
             one.room.to_string(),
@@ -113,23 +89,21 @@ pub(crate) fn vertiports(account: &Account) -> Table {
         ];
         row.extend(one.stand_worth.as_ref().map(|worth| grouped(worth.stand_shadow_price_usd, 0)));
         row
-    }));
-    Table { rows, best: Vec::new() }
+    }))
 }
 
 /// What aircraft did, as means by type. Time out of service has a column only where an outage kept
 /// an aircraft on the ground.
 pub(crate) fn types(account: &Account) -> Table {
     let has_outages = account.aircraft.iter().any(|one| one.out_of_service_h > 0.0);
-    let mut head =
-        cells(&["type", "aircraft", "flights", "empty", "flying, h", "charging, h", "waiting, h"]);
-    head.extend(has_outages.then(|| "out of service, h".to_owned()));
-    head.push("profit before aircraft cost, $".to_owned());
-    let mut rows = vec![head];
+    let mut columns =
+        vec!["type", "aircraft", "flights", "empty", "flying, h", "charging, h", "waiting, h"];
+    columns.extend(has_outages.then_some("out of service, h"));
+    columns.push("profit before aircraft cost, $");
     let mut kinds: Vec<&str> = account.aircraft.iter().map(|one| one.kind.as_str()).collect();
     kinds.sort_unstable();
     kinds.dedup();
-    for kind in kinds {
+    Table::new(columns).with_rows(kinds.into_iter().map(|kind| {
         let of_kind: Vec<&AircraftUse> =
             account.aircraft.iter().filter(|one| one.kind == kind).collect();
         let mean = |number: fn(&AircraftUse) -> f64| {
@@ -146,7 +120,6 @@ pub(crate) fn types(account: &Account) -> Table {
         ];
         row.extend(has_outages.then(|| grouped(mean(|one| one.out_of_service_h), 2)));
         row.push(grouped(mean(|one| one.profit_usd), 0));
-        rows.push(row);
-    }
-    Table { rows, best: Vec::new() }
+        row
+    }))
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use maud::{Markup, html};
 use vertifleet_core::Purpose;
-use vertifleet_picture::numbers::{counted, dollars, duration, grouped, minutes, p_value, signed};
+use vertifleet_picture::numbers::{counted, dollars, duration, grouped, minutes, p_value};
 use vertifleet_study::comparison::{PairedDifference, PolicySummary};
 use vertifleet_study::published::NOTE;
 use vertifleet_study::record::ReplayedDay;
@@ -13,7 +13,7 @@ use vertifleet_study::{ComparisonRecords, ComparisonReport, DayRecord, NetworkOr
 
 use crate::comparison_headline::headline;
 use crate::figure;
-use crate::report::{DataFile, Files, Place, Report, Section, Table, estimate};
+use crate::report::{DataFile, Files, Place, Report, Section, Table, difference};
 
 /// The note below tables with a column of information classes.
 pub(crate) const SEES: &str =
@@ -161,7 +161,7 @@ fn results(summary: &ComparisonReport) -> Section {
         None => table.rows.iter_mut().for_each(|row| drop(row.remove(SHARE_COLUMN))),
         Some(bound) => notes.push(format!(
             "of bound: share of the certified bound, which no schedule passes: $ {} (slices of {})",
-            estimate(&bound.upper_bound_usd, |value| grouped(value, 0)),
+            bound.upper_bound_usd.written(|value| grouped(value, 0)),
             minutes(bound.step_s)
         )),
     }
@@ -176,14 +176,14 @@ fn results(summary: &ComparisonReport) -> Section {
 
 fn policy_row(policy: &PolicySummary) -> Vec<String> {
     let time = |time: Option<u64>| time.map_or(NONE.to_owned(), duration);
-    let share = |share: &Estimate| estimate(share, |value| grouped(100.0 * value, 2));
+    let share = |share: &Estimate| share.written(|value| grouped(100.0 * value, 2));
     vec![
         policy.name.clone(),
         policy.sees.to_string(),
-        estimate(&policy.profit_usd, |value| grouped(value, 0)),
+        policy.profit_usd.written(|value| grouped(value, 0)),
         policy.profit_usd.standard_deviation.map_or(NONE.to_owned(), |value| grouped(value, 0)),
         policy.bound_share.as_ref().map_or(NONE.to_owned(), share),
-        estimate(&policy.reward, |value| format!("{value:.4}")),
+        policy.reward.written(|value| format!("{value:.4}")),
         policy.reward.standard_deviation.map_or(NONE.to_owned(), |value| format!("{value:.5}")),
         grouped(policy.flights, 1),
         grouped(policy.repositioning_flights, 1),
@@ -199,10 +199,9 @@ fn policy_row(policy: &PolicySummary) -> Vec<String> {
 fn tests(summary: &ComparisonReport) -> Section {
     let row = |comparison: &PairedDifference| {
         let test = &comparison.profit_usd;
-        let half = test.difference.half_width_95.map(|half| format!(" ± {}", grouped(half, 0)));
         vec![
             format!("{} - {}", comparison.first, comparison.second),
-            signed(test.difference.mean, 0) + &half.unwrap_or_default(),
+            difference(&test.difference, 1.0, 0),
             test.t.map_or(NONE.to_owned(), |t| grouped(t, 2)),
             test.degrees_of_freedom.to_string(),
             p_value(test.p_value),

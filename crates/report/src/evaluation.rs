@@ -1,10 +1,10 @@
 //! The report of an evaluation.
 
-use vertifleet_picture::numbers::{duration, grouped, minutes, p_value, signed};
+use vertifleet_picture::numbers::{duration, grouped, minutes, p_value};
 use vertifleet_study::evaluation::{EvaluatedPolicy, EvaluationReport, SuiteReport};
 
 use crate::comparison::{NONE, SEES};
-use crate::report::{Report, Section, Table, estimate};
+use crate::report::{Report, Section, Table, difference};
 
 /// The report of an evaluation: a table for each suite, then one with all suites if there are
 /// several.
@@ -59,21 +59,15 @@ fn row(policy: &EvaluatedPolicy, one_network: bool) -> Vec<String> {
     let EvaluatedPolicy { share, p_value_holm, profit_usd, decision_ns } = policy;
     let [minus, p] = match &share.minus_first {
         None => [const { String::new() }; 2],
-        Some(test) => {
-            let half = test.difference.half_width_95.map(|half| format!(" ± {}", percent(half)));
-            [
-                signed(100.0 * test.difference.mean, 2) + &half.unwrap_or_default(),
-                p_value(*p_value_holm),
-            ]
-        }
+        Some(test) => [difference(&test.difference, 100.0, 2), p_value(*p_value_holm)],
     };
     vec![
         share.name.clone(),
         share.sees.to_string(),
-        estimate(&share.bound_share, percent),
+        share.bound_share.written(percent),
         percent(share.lowest_bound_share),
         // Profits of different networks cannot be averaged.
-        if one_network { estimate(profit_usd, |value| grouped(value, 0)) } else { NONE.to_owned() },
+        if one_network { profit_usd.written(|value| grouped(value, 0)) } else { NONE.to_owned() },
         minus,
         p,
         time(decision_ns.map(|time| time.median_ns)),
@@ -94,7 +88,7 @@ fn all_suites(report: &EvaluationReport) -> Table {
         let cell = |suite: &SuiteReport| {
             let found = suite.policies.iter().find(|policy| policy.share.name == name);
             found.map_or(NONE.to_owned(), |policy| {
-                estimate(&policy.share.bound_share, |share| grouped(100.0 * share, 2))
+                policy.share.bound_share.written(|share| grouped(100.0 * share, 2))
             })
         };
         [name.to_owned()].into_iter().chain(report.suites.iter().map(cell)).collect()

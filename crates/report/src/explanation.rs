@@ -7,6 +7,7 @@ use vertifleet_study::explain::Explanation;
 use vertifleet_study::record::{ReplayedDay, bound_share};
 
 use crate::account::account;
+use crate::comparison::NONE;
 use crate::report::{Report, Section, Table};
 
 /// The beginning of every page of an explanation.
@@ -38,22 +39,17 @@ pub fn explanation<'a>(explanation: &Explanation, replayed: &'a [ReplayedDay]) -
     );
     Report {
         subject: "where a day’s money is, and where it is lost",
-        mark: "\n<!-- vertifleet-explanation/1 -->\n",
+        kind: Some(&EXPLANATION_PAGE),
         ..report
     }
 }
 
 /// What changes are worth after what they cost.
 fn worth(explanation: &Explanation) -> Table {
-    let mut rows = vec![vec![
-        "change".to_owned(),
-        "cost, $".to_owned(),
-        format!("{} after cost, $", explanation.account.policy),
-        "bound after cost, $".to_owned(),
-    ]];
-    rows.extend(explanation.worth.iter().map(|one| {
-        let policy = one.policy_usd.map_or_else(|| "n/a".to_owned(), |usd| signed(usd, 0));
+    let by_policy = format!("{} after cost, $", explanation.account.policy);
+    let columns = ["change", "cost, $", &by_policy, "bound after cost, $"];
+    Table::new(columns).with_rows(explanation.worth.iter().map(|one| {
+        let policy = one.policy_usd.map_or_else(|| NONE.to_owned(), |usd| signed(usd, 0));
         vec![one.change.clone(), grouped(one.cost_usd, 0), policy, signed(one.bound_usd, 0)]
-    }));
-    Table { rows, best: Vec::new() }
+    }))
 }

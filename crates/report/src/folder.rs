@@ -94,15 +94,16 @@ pub fn write(report: &Report<'_>, folder: &Path, force: bool) -> Result<Written,
     Ok(Written { page: folder.join("report.html"), kept })
 }
 
-/// Writes a report into the folder of its journal, each file whole or not at all.
+/// Writes a report into the folder of its journal, each file whole or not at all, and returns the
+/// path of the page.
 ///
 /// # Errors
 /// Returns [`Error::Core`] (V102) if a file cannot be written.
-pub fn write_beside_journal(report: &Report<'_>, folder: &Path) -> Result<Written, Error> {
+pub fn write_beside_journal(report: &Report<'_>, folder: &Path) -> Result<PathBuf, Error> {
     for (name, content) in files(report) {
         write_atomically(&folder.join(name), &content)?;
     }
-    Ok(Written { page: folder.join("report.html"), kept: None })
+    Ok(folder.join("report.html"))
 }
 
 /// All files of a report; `report.html` is the page.

@@ -65,54 +65,47 @@ pub(crate) fn waits(passenger_wait_s: u32) -> Option<String> {
 }
 
 fn vertiport_rows(overview: &NetworkOverview) -> Table {
-    let mut rows =
-        vec![cells(&["vertiport", "place", "stands", "chargers", "departing", "arriving"])];
-    rows.extend(overview.vertiports.iter().map(|one| {
-        let place = match one.degrees {
-            Some([latitude, longitude]) => format!("{latitude:.4}, {longitude:.4}"),
-            None => format!("{:.1}, {:.1} mi", one.position_mi[0], one.position_mi[1]),
-        };
-        let chargers = one.chargers.map_or_else(String::new, |chargers| chargers.to_string());
-        let (departing, arriving) = (grouped(one.departing, 0), grouped(one.arriving, 0));
-        vec![one.id.clone(), place, one.stands.to_string(), chargers, departing, arriving]
-    }));
-    Table { rows, best: Vec::new() }
+    Table::new(["vertiport", "place", "stands", "chargers", "departing", "arriving"]).with_rows(
+        overview.vertiports.iter().map(|one| {
+            let place = match one.degrees {
+                Some([latitude, longitude]) => format!("{latitude:.4}, {longitude:.4}"),
+                None => format!("{:.1}, {:.1} mi", one.position_mi[0], one.position_mi[1]),
+            };
+            let chargers = one.chargers.map_or_else(String::new, |chargers| chargers.to_string());
+            let (departing, arriving) = (grouped(one.departing, 0), grouped(one.arriving, 0));
+            vec![one.id.clone(), place, one.stands.to_string(), chargers, departing, arriving]
+        }),
+    )
 }
 
 fn type_rows(overview: &NetworkOverview) -> Table {
-    let mut rows = vec![cells(&["aircraft type", "aircraft", "seats", "mph", "range, mi"])];
-    rows.extend(overview.aircraft_types.iter().map(|one| {
-        let (speed, range) = (grouped(one.speed_mph, 1), grouped(one.range_mi, 0));
-        vec![one.id.clone(), one.aircraft.to_string(), one.seats.to_string(), speed, range]
-    }));
-    Table { rows, best: Vec::new() }
+    Table::new(["aircraft type", "aircraft", "seats", "mph", "range, mi"]).with_rows(
+        overview.aircraft_types.iter().map(|one| {
+            let (speed, range) = (grouped(one.speed_mph, 1), grouped(one.range_mi, 0));
+            vec![one.id.clone(), one.aircraft.to_string(), one.seats.to_string(), speed, range]
+        }),
+    )
 }
 
 fn period_rows(overview: &NetworkOverview) -> Table {
-    let mut rows = vec![cells(&["from", "passengers"])];
-    rows.extend(overview.periods.iter().zip(&overview.passengers).map(|(start, table)| {
-        let sum: f64 = table.iter().flatten().sum();
-        vec![start.clone(), grouped(sum, 0)]
-    }));
-    Table { rows, best: Vec::new() }
+    Table::new(["from", "passengers"]).with_rows(
+        overview.periods.iter().zip(&overview.passengers).map(|(start, table)| {
+            let sum: f64 = table.iter().flatten().sum();
+            vec![start.clone(), grouped(sum, 0)]
+        }),
+    )
 }
 
 fn matrix_rows(overview: &NetworkOverview) -> Table {
-    let mut rows = vec![
-        std::iter::once(String::new())
-            .chain(overview.vertiports.iter().map(|one| one.id.clone()))
-            .collect::<Vec<_>>(),
-    ];
-    rows.extend(overview.vertiports.iter().enumerate().map(|(from, one)| {
-        let sum = |to: usize| overview.passengers.iter().map(|table| table[from][to]).sum::<f64>();
-        let row = (0..overview.vertiports.len()).map(|to| grouped(sum(to), 0));
-        std::iter::once(one.id.clone()).chain(row).collect()
-    }));
-    Table { rows, best: Vec::new() }
-}
-
-fn cells(texts: &[&str]) -> Vec<String> {
-    texts.iter().map(|&text| text.to_owned()).collect()
+    let ids = overview.vertiports.iter().map(|one| one.id.as_str());
+    Table::new(std::iter::once("").chain(ids)).with_rows(
+        overview.vertiports.iter().enumerate().map(|(from, one)| {
+            let sum =
+                |to: usize| overview.passengers.iter().map(|table| table[from][to]).sum::<f64>();
+            let row = (0..overview.vertiports.len()).map(|to| grouped(sum(to), 0));
+            std::iter::once(one.id.clone()).chain(row).collect()
+        }),
+    )
 }
 
 #[cfg(test)]

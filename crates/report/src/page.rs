@@ -29,8 +29,10 @@ impl Report<'_> {
     pub(crate) fn page_with(&self, replay: Option<&str>) -> String {
         let sections = self.sections.iter().filter(|section| section.place != Place::Terminal);
         let page = html! {
-            (DOCTYPE)
-            (PreEscaped(self.mark))
+            @match self.kind {
+                Some(kind) => { (PreEscaped(format!("{}1 -->\n", kind.opening))) }
+                None => { (DOCTYPE) }
+            }
             html lang="en" {
                 head {
                     meta charset="utf-8";
@@ -83,8 +85,10 @@ impl Report<'_> {
         };
         html! {
             h2 id="replay" { "Replay" }
-            p { (which) ": on a map and along its hours, from decision to decision. Two policies stand side by side with "
-                "their first difference."
+            p { (which) ": on a map and along its hours, from decision to decision."
+                @if self.replayed.iter().any(|day| day.plays.len() > 1) {
+                    " Two policies stand side by side with their first difference."
+                }
                 @if matches!(self.files, Files::Beside(_)) {
                     " The file " a href="replay.html" { "replay.html" } " shows the same in a whole window."
                 } }
@@ -100,11 +104,12 @@ impl Report<'_> {
                 @for paragraph in &self.closing { p { (paragraph) } }
                 @if let Files::Beside(files) = &self.files {
                     p { "Files beside this page: "
-                        @for file in files { a href=(file.name) { (file.name) } " (" (file.about) "); " }
-                        "figures: "
-                        @for (position, figure) in self.figures().enumerate() {
+                        @for (position, file) in files.iter().enumerate() {
                             @if position > 0 { "; " }
-                            a href={ (figure.slug) ".svg" } { (figure.slug) } " (" a href={ (figure.slug) ".png" } { "PNG" } ")"
+                            a href=(file.name) { (file.name) } " (" (file.about) ")"
+                        }
+                        @for figure in self.figures() {
+                            "; " a href={ (figure.slug) ".svg" } { (figure.slug) } " (" a href={ (figure.slug) ".png" } { "PNG" } ")"
                         }
                         "." }
                 }

@@ -1,8 +1,11 @@
 //! What a report consists of, whatever it is about.
 
 use maud::Markup;
+use vertifleet_core::OutputKind;
+use vertifleet_picture::numbers::{grouped, signed};
 use vertifleet_study::record::ReplayedDay;
 use vertifleet_study::statistics::Estimate;
+use vertifleet_study::sweep::Size;
 
 use crate::figure::Figure;
 
@@ -33,8 +36,8 @@ pub struct Report<'a> {
     pub closing: Vec<String>,
     /// The files that the page links to.
     pub files: Files<'a>,
-    /// A comment at the beginning of the page by which the program recognises it; may be empty.
-    pub mark: &'static str,
+    /// The kind of file that the page is, if the program recognises it by its beginning.
+    pub kind: Option<&'static OutputKind>,
 }
 
 /// The files of a report other than its page.
@@ -136,10 +139,16 @@ impl Section {
     }
 }
 
-/// A mean with its interval, as a cell.
-pub(crate) fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> String {
-    match estimate.half_width_95 {
-        Some(half_width) => format!("{} ± {}", written(estimate.mean), written(half_width)),
-        None => written(estimate.mean),
+/// A difference with its interval, `scale` times as large, as a cell.
+pub(crate) fn difference(estimate: &Estimate, scale: f64, decimals: usize) -> String {
+    let half = estimate.half_width_95.map(|half| format!(" ± {}", grouped(scale * half, decimals)));
+    signed(scale * estimate.mean, decimals) + &half.unwrap_or_default()
+}
+
+/// Stands, and the chargers that are counted apart from them, as a cell.
+pub(crate) fn stands(size: &Size) -> String {
+    match size.chargers {
+        0 => size.stands.to_string(),
+        chargers => format!("{} + {chargers} chargers", size.stands),
     }
 }

@@ -5,7 +5,7 @@ use vertifleet_picture::numbers::{counted, grouped, minutes, signed};
 use vertifleet_study::size::{DesignSummary, SizeReport};
 
 use crate::figure;
-use crate::report::{DataFile, Files, Place, Report, Section, Table, estimate};
+use crate::report::{DataFile, Files, Place, Report, Section, Table, stands};
 use crate::size_headline::headline;
 
 /// The report of a search with its files. `best` is the network file of the design that was found.
@@ -77,13 +77,11 @@ const NUMBERS: [&str; 6] =
     ["aircraft", "stands", "fixed cost, $ a day", "profit, $ a day", "passengers a day", "served"];
 
 fn numbers(design: &DesignSummary) -> [String; 6] {
-    let chargers = design.size.chargers;
-    let chargers = if chargers > 0 { format!(" + {chargers} chargers") } else { String::new() };
     [
         design.size.aircraft.to_string(),
-        format!("{}{chargers}", design.size.stands),
+        stands(&design.size),
         grouped(design.size.fixed_cost_usd, 0),
-        estimate(&design.profit_usd, |usd| grouped(usd, 0)),
+        design.profit_usd.written(|usd| grouped(usd, 0)),
         grouped(design.passengers, 0),
         format!("{:.1} %", 100.0 * design.served_share),
     ]

@@ -5,7 +5,7 @@ use vertifleet_picture::numbers::{counted, dollars, grouped, minutes, signed, ty
 use vertifleet_study::sweep::{CellSummary, SweepRecords, SweepReport, format_value};
 
 use crate::figure;
-use crate::report::{DataFile, Files, Place, Report, Section, Table, estimate};
+use crate::report::{DataFile, Files, Place, Report, Section, Table, stands};
 use crate::sweep_headline::headline;
 use crate::sweep_tables::{self, Settings};
 
@@ -111,22 +111,16 @@ fn row(report: &SweepReport, cell: &CellSummary) -> Vec<String> {
     let mark = if is_cheapest { " (cheapest within 1 %)" } else { "" };
     let mut row = vec![format!("{}{mark}", cell.cell)];
     row.extend(cell.settings.iter().map(format_value));
-    let chargers =
-        if size.chargers > 0 { format!(" + {} chargers", size.chargers) } else { String::new() };
-    row.extend([
-        size.aircraft.to_string(),
-        format!("{}{chargers}", size.stands),
-        grouped(size.fixed_cost_usd, 0),
-    ]);
-    row.extend(cell.results.iter().map(|one| estimate(&one.profit_usd, |usd| grouped(usd, 0))));
+    row.extend([size.aircraft.to_string(), stands(&size), grouped(size.fixed_cost_usd, 0)]);
+    row.extend(cell.results.iter().map(|one| one.profit_usd.written(|usd| grouped(usd, 0))));
     let first = &cell.results[0];
     let minus = first.minus_best_usd.as_ref();
-    let minus = minus.map(|one| estimate(one, |usd| signed(usd, 0).replace('+', "")));
+    let minus = minus.map(|one| one.written(|usd| signed(usd, 0).replace('+', "")));
     row.push(minus.unwrap_or_else(|| "best".to_owned()));
     row.push(format!("{:.1} %", 100.0 * first.served_share));
     row.push(format!("{:.3}", first.load_factor));
     let share = first.bound_share.as_ref();
-    row.extend(share.map(|share| estimate(share, |share| grouped(100.0 * share, 1))));
+    row.extend(share.map(|share| share.written(|share| grouped(100.0 * share, 1))));
     row
 }
 

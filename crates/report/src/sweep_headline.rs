@@ -8,12 +8,7 @@ use vertifleet_study::sweep::{CellSummary, SweepReport};
 /// most.
 pub(crate) fn headline(report: &SweepReport) -> String {
     let best = report.cell(report.best);
-    let earns = |cell: &CellSummary| {
-        let profit = cell.results[0].profit_usd;
-        let half =
-            profit.half_width_95.map_or_else(String::new, |half| format!(" ± {}", dollars(half)));
-        format!("{}{half}", dollars(profit.mean))
-    };
+    let earns = |cell: &CellSummary| cell.results[0].profit_usd.written(dollars);
     let mut sentences = vec![format!(
         "{} earns most with {}: {} a day on average over {}.",
         report.policies[0],

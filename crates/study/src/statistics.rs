@@ -43,6 +43,12 @@ impl Estimate {
     pub fn interval_95(&self) -> Option<(f64, f64)> {
         self.half_width_95.map(|half| (self.mean - half, self.mean + half))
     }
+
+    /// The mean and the half width of its interval as text, such as `36,597 ± 244`.
+    pub fn written(&self, number: impl Fn(f64) -> String) -> String {
+        let half = self.half_width_95.map(|half| format!(" ± {}", number(half)));
+        number(self.mean) + &half.unwrap_or_default()
+    }
 }
 
 /// The arithmetic mean; 0 if there are no values.

@@ -85,7 +85,7 @@ pub(crate) struct SizeArguments {
     /// all designs, as tariffs.aircraft_cost_usd_per_day=900; may be given several times [default:
     /// all aircraft, stands and chargers, up to twice the file; for least-spill not the aircraft]
     ///
-    /// * gives each entry of the list a number of its own; a later flag for one of them wins.
+    /// * gives each entry of the list its own number; a later flag for one of them wins.
     #[arg(long, value_name = "PATH=VALUES", value_parser = parse_factor)]
     pub(crate) vary: Vec<Factor>,
     /// Policy that plays the days, as compare takes it

@@ -44,9 +44,9 @@ pub(crate) fn run(arguments: &SizeArguments) -> Result<ExitCode, Failure> {
     let records = sizing.run(folder, command(), arguments.force, &stop, &mut || bar.advance(1))?;
     drop(bar);
     let report = vertifleet_report::size(&records.report, &records.best);
-    let written = folder::write_beside_journal(&report, folder)?;
+    let page = folder::write_beside_journal(&report, folder)?;
     print(&if arguments.json { records.report.to_json() } else { report.text() })?;
-    eprintln!("report: {}", written.page.display());
+    eprintln!("report: {}", page.display());
     eprintln!("network file of the design: {}", folder.join("best.toml").display());
     Ok(ExitCode::SUCCESS)
 }

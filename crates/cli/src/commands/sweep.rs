@@ -52,8 +52,8 @@ pub(crate) fn run(arguments: &SweepArguments) -> Result<ExitCode, Failure> {
     let summary = SweepReport::of(&records)?;
     let report = vertifleet_report::sweep(&summary, &records);
     records.write_journal(folder)?;
-    let written = folder::write_beside_journal(&report, folder)?;
+    let page = folder::write_beside_journal(&report, folder)?;
     print(&if arguments.json { summary.to_json() } else { report.text() })?;
-    eprintln!("report: {}", written.page.display());
+    eprintln!("report: {}", page.display());
     Ok(ExitCode::SUCCESS)
 }

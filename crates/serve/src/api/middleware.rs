@@ -73,7 +73,7 @@ pub(super) async fn measure(
     let method = request.method();
     let is_known = known.contains(method);
     let method = if is_known { method.as_str() } else { "other" }.to_owned();
-    // Paths as they are described, since each id would be a series of its own.
+    // Paths as they are described, since each id would be its own series.
     let path = request.extensions().get::<MatchedPath>().cloned();
     let path = path.as_ref().map(MatchedPath::as_str);
     let span = service.spans.as_ref().map(|spans| {

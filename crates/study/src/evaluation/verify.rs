@@ -190,8 +190,8 @@ impl fmt::Display for Verification {
         if let (true, Some(bound_share), Some(profit_usd)) =
             (self.valid, &self.bound_share, &self.profit_usd)
         {
-            let share = estimate(bound_share, |value| grouped(100.0 * value, 2));
-            let profit = estimate(profit_usd, |value| grouped(value, 0));
+            let share = bound_share.written(|value| grouped(100.0 * value, 2));
+            let profit = profit_usd.written(|value| grouped(value, 0));
             return write!(
                 f,
                 "verified: {policy} on {suite}, {days}: {share} % of the certified bound, $ {profit} a day (not verified: who it is, what it saw, its times, what it says of itself)"
@@ -208,10 +208,4 @@ impl fmt::Display for Verification {
         }
         f.write_str(&text)
     }
-}
-
-/// A mean with its interval.
-fn estimate(estimate: &Estimate, written: impl Fn(f64) -> String) -> String {
-    let half = estimate.half_width_95.map(|half| format!(" ± {}", written(half)));
-    written(estimate.mean) + &half.unwrap_or_default()
 }
