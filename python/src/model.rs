@@ -108,7 +108,7 @@ impl Model {
         let shape = net.shape();
         let (size, features) = (shape.vertiports, shape.node_features);
         let policy = &self.model.header().policy;
-        let edges = edges_of(edges, policy.adjacency().is_observed(), [batch, size * size])?;
+        let edges = edges_of(edges, policy.edges().is_some(), [batch, size * size])?;
         let nodes = entries("nodes", nodes, [batch, size * features])?;
         let aircraft = entries("aircraft", aircraft, [batch, shape.aircraft_features])?;
         let clock = entries("clock", clock, [batch, 1])?;

@@ -2,26 +2,113 @@
 //!
 //! The features of `gcaps` and `mlp` grow with the number of vertiports, and so do their weights.
 //! Here the features of a node describe what a flight to that vertiport means to the deciding
-//! aircraft, in dimensionless numbers (`features`), so the graph capsules and the attention of §IV
-//! have the same weights for any number of vertiports and aircraft. The network does not decide by
-//! itself: the day's bid prices say what each choice is worth, and the network says what to add to
-//! that (`scorer`). It learns by [imitation](crate::imitation) of roll-outs.
+//! aircraft, in dimensionless numbers, so the graph capsules and the attention of §IV have the same
+//! weights for any number of vertiports and aircraft. The network does not decide by itself: the
+//! day's bid prices say what each choice is worth, and the network says what to add to that
+//! ([`crate::scorer`]). It learns by [imitation](crate::imitation) of roll-outs.
 
-pub(crate) mod features;
-mod observer;
-mod policy;
-pub(crate) mod scorer;
-#[cfg(test)]
-mod tests;
+use std::sync::Arc;
 
-#[cfg(test)]
-pub(crate) use tests::{first_column, played, with_opinions};
-use vertifleet_policy::RolloutSettings;
+use vertifleet_core::VertiportIx;
+use vertifleet_observe::PricedDecision;
+use vertifleet_policy::{DayPrices, Policy, PolicyError, PriceMemory, PricedChoice, Shortlist};
+use vertifleet_sim::{Decision, View};
 
-pub use observer::{PricedObservation, PricedObserver};
-pub use policy::GcapsX;
+use crate::model::Model;
+use crate::rollouts::RolloutPlayer;
+use crate::scorer::Scorer;
 
-/// The settings of the roll-outs that `gcaps-x` learns from, and of its own, if its choices are
-/// rolled out at all.
-pub(crate) const ROLLOUTS: RolloutSettings =
-    RolloutSettings { horizon_s: 7_200, rollouts: 8, noise: 0.06, price_weight: 0.5 };
+/// Decides by the day's prices and by a network that scores the choices that are worth nearly as
+/// much as the best.
+pub struct GcapsX {
+    scorer: Scorer,
+    prices: PriceMemory,
+    shortlist: Shortlist,
+    /// The choices with their worth by prices and network, dollars.
+    scored: Vec<PricedChoice>,
+    /// How many choices are rolled out, and what plays the roll-outs; `None` if the policy decides
+    /// at once.
+    rollouts: Option<(usize, RolloutPlayer)>,
+}
+
+impl GcapsX {
+    /// At most this many choices are scored, so no more can be rolled out.
+    pub const MOST_ROLLED_OUT: usize = Shortlist::MOST;
+
+    /// The policy of a `gcaps-x` model. It rolls its `most_rolled_out` best choices out before it
+    /// decides, at most [`MOST_ROLLED_OUT`](Self::MOST_ROLLED_OUT); with 1 or 0 it decides at once.
+    pub fn new(model: &Model, most_rolled_out: usize) -> Self {
+        let weights = Arc::new(model.weights());
+        Self::of(Scorer::new(&model.header().policy, None, weights), most_rolled_out)
+    }
+
+    pub(crate) fn of(scorer: Scorer, most_rolled_out: usize) -> Self {
+        let most = most_rolled_out.min(Self::MOST_ROLLED_OUT);
+        Self {
+            scorer,
+            prices: PriceMemory::default(),
+            shortlist: Shortlist::default(),
+            scored: Vec::new(),
+            rollouts: (most > 1).then(|| (most, RolloutPlayer::default())),
+        }
+    }
+}
+
+impl Policy for GcapsX {
+    fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
+        let Self { scorer, prices, shortlist, scored, rollouts } = self;
+        let prices = prices.at(*view, decision);
+        let listed = shortlist.rank(prices, *view, decision);
+        let scene = PricedDecision::of(*view, decision, prices);
+        let Some((most_rolled_out, rollouts)) = rollouts else {
+            return Ok(scorer.choose(scene, listed));
+        };
+        if let [only] = listed {
+            return Ok(only.to);
+        }
+        scorer.worth(scene, listed, scored);
+        scored.sort_by(|one, other| other.worth_usd.total_cmp(&one.worth_usd));
+        scored.truncate(*most_rolled_out);
+        Ok(rollouts.best(scorer, scene, scored))
+    }
+
+    fn choose_with_values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<VertiportIx, PolicyError> {
+        self.values(decision, view, values)?;
+        if self.rollouts.is_some() {
+            return self.choose(decision, view);
+        }
+        Ok(PricedChoice::best(self.scored.iter().copied()).unwrap_or(decision.at))
+    }
+
+    /// Worth of each choice of the shortlist by prices and network, dollars, before any roll-outs.
+    fn values(
+        &mut self,
+        decision: &Decision,
+        view: &View<'_>,
+        values: &mut [f64],
+    ) -> Result<(), PolicyError> {
+        let Self { scorer, prices, shortlist, scored, .. } = self;
+        let prices = prices.at(*view, decision);
+        let listed = shortlist.rank(prices, *view, decision);
+        let scene = PricedDecision::of(*view, decision, prices);
+        scorer.worth(scene, listed, scored);
+        values.fill(f64::NAN);
+        for choice in scored {
+            values[choice.to.at()] = choice.worth_usd;
+        }
+        Ok(())
+    }
+
+    fn prices(&mut self, decision: &Decision, view: &View<'_>) -> Option<&DayPrices> {
+        Some(self.prices.at(*view, decision))
+    }
+
+    fn price_memory(&mut self) -> Option<&mut PriceMemory> {
+        Some(&mut self.prices)
+    }
+}

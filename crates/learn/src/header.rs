@@ -5,9 +5,7 @@ use serde_json::{Map, Value};
 use vertifleet_core::FeatureScales;
 
 use crate::nn::{self, Architecture, Shape};
-use crate::run::TrainingRequest;
 use crate::settings::TrainingSettings;
-use crate::{features, full, gcaps_x};
 
 /// The format of weight files.
 pub(crate) const FORMAT: &str = "vertifleet-weights/2";
@@ -19,7 +17,7 @@ const MEMBERS: [&str; 8] =
 /// Describes weights and says where they came from.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Header {
-    format: &'static str,
+    pub(crate) format: &'static str,
     /// The network that the weights were trained on. Weights of `gcaps-x` were trained on random
     /// networks as well.
     pub network: String,
@@ -80,26 +78,6 @@ struct RawHeader {
 }
 
 impl Header {
-    /// The header of a run's models before its first step.
-    pub(crate) fn of_run(
-        plan: &TrainingRequest,
-        feature_scales: Option<FeatureScales>,
-        shape: FeatureShape,
-    ) -> Self {
-        Self {
-            format: FORMAT,
-            network: plan.world.name(),
-            policy: plan.policy.clone(),
-            shape,
-            feature_scales,
-            settings: Some(plan.settings.clone()),
-            seed: Some(plan.seed),
-            commit: plan.commit.clone(),
-            steps: 0,
-            begun_with: plan.begun_with(),
-        }
-    }
-
     /// The same header after learning from this many decisions.
     pub(crate) fn after(&self, steps: u64) -> Self {
         Self { steps, ..self.clone() }
@@ -147,7 +125,7 @@ impl Header {
                 self.shape.vertiports
             ));
         }
-        let ours = shape_of(&self.policy, self.shape.vertiports.unwrap_or_default());
+        let ours = self.policy.shape(self.shape.vertiports.unwrap_or_default());
         let sizes = (self.shape.node_features, self.shape.aircraft_features);
         if sizes != (ours.node_features, ours.aircraft_features) {
             return Err(format!("{:?} is not the shape of our features", self.shape));
@@ -165,20 +143,4 @@ impl Header {
         let shape = Shape { vertiports, node_features, aircraft_features };
         nn::NeuralNetwork::new(self.policy.clone(), shape)
     }
-}
-
-/// The shape of what a policy sees of a day with so many vertiports.
-pub(crate) fn shape_of(policy: &Architecture, vertiports: usize) -> Shape {
-    match policy {
-        Architecture::Gcaps(_) | Architecture::Mlp(_) => features::shape(vertiports),
-        Architecture::GcapsX(_) => gcaps_x::features::shape(vertiports),
-        Architecture::GcapsFull(_) | Architecture::MlpFull(_) => full::features::shape(vertiports),
-    }
-}
-
-/// The network of a policy for this number of vertiports.
-pub(crate) fn network(policy: &Architecture, vertiports: usize) -> nn::NeuralNetwork {
-    nn::NeuralNetwork::new(policy.clone(), shape_of(policy, vertiports)).expect(
-        "sizes were checked when the weights were made, and days have at most 256 vertiports",
-    )
 }

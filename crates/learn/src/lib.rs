@@ -1,7 +1,7 @@
-//! Learned policies (§IV): features, networks of layers, the three ways to learn, weights,
+//! Learned policies (§IV): networks of layers, the three ways to learn, weights,
 //! checkpoints, and the shipped models.
 //!
-//! This crate builds on `vertifleet-policy`. A [`Model`] holds a policy's weights and says where
+//! This crate builds on `vertifleet-observe`. A [`Model`] holds a policy's weights and says where
 //! they came from; a [`TrainingRequest`] starts a [`TrainingRun`], which learns by PPO, by
 //! imitation of roll-outs or by evolution; a [`RunFolder`] writes the files of a run.
 //!
@@ -53,13 +53,15 @@
 mod adam;
 mod error;
 mod evolution;
-mod features;
-mod full;
 mod gcaps_x;
+#[cfg(test)]
+mod gcaps_x_tests;
 mod header;
 mod imitation;
 pub mod kinds;
 mod learned;
+#[cfg(test)]
+mod learned_tests;
 mod lockstep;
 mod model;
 pub mod nn;
@@ -67,6 +69,7 @@ mod ppo;
 mod rollouts;
 mod rows;
 mod run;
+mod scorer;
 mod settings;
 mod shipped;
 mod tensor_file;
@@ -74,9 +77,7 @@ mod validation;
 
 pub use error::Error;
 pub use evolution::{EvolutionRow, EvolutionSettings};
-pub use features::{Observations, Scales, shape};
-pub use full::{FullObservation, FullObserver, FullPolicy};
-pub use gcaps_x::{GcapsX, PricedObservation, PricedObserver};
+pub use gcaps_x::GcapsX;
 pub use header::{FeatureShape, Header};
 pub use imitation::{ImitationRow, ImitationSettings};
 pub use learned::Learned;
@@ -85,3 +86,4 @@ pub use ppo::{LearningRateSchedule, PpoRow, PpoSettings, Reward};
 pub use run::{Curve, RunFolder, TrainingRequest, TrainingRun, TrainingWatch, Work, sizes};
 pub use settings::{TrainingSettings, set};
 pub use shipped::{Shipped, shipped};
+pub use vertifleet_observe::Observation;

@@ -11,14 +11,14 @@ use std::path::Path;
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 use sha2::{Digest as _, Sha256};
 use vertifleet_core::Scenario;
+use vertifleet_observe::Observation;
 use vertifleet_policy::Policy;
 
 use crate::error::Error;
-use crate::full::FullPolicy;
 use crate::gcaps_x::GcapsX;
 use crate::header::Header;
 use crate::learned::Learned;
-use crate::nn::{self, Architecture};
+use crate::nn;
 use crate::tensor_file;
 
 /// Larger files are not read. No weight file of this program comes near this size.
@@ -97,12 +97,9 @@ impl Model {
     /// that many of its best choices out before it decides; with 1 it decides at once, as the other
     /// kinds always do.
     pub fn policy(&self, most_rolled_out: usize) -> Box<dyn Policy> {
-        match self.header.policy {
-            Architecture::Gcaps(_) | Architecture::Mlp(_) => Box::new(Learned::new(self)),
-            Architecture::GcapsX(_) => Box::new(GcapsX::new(self, most_rolled_out)),
-            Architecture::GcapsFull(_) | Architecture::MlpFull(_) => {
-                Box::new(FullPolicy::new(self))
-            }
+        match self.header.policy.observation() {
+            Observation::Priced => Box::new(GcapsX::new(self, most_rolled_out)),
+            Observation::Paper | Observation::Full => Box::new(Learned::new(self)),
         }
     }
 

@@ -24,8 +24,8 @@ mod value_head;
 
 pub use architecture::{
     Adjacency, Architecture, EncoderKind, GcapsSettings, GraphSettings, Laplacian, MlpSettings,
-    Shape,
 };
 pub use batch::{Inputs, Slopes};
 pub use layout::{Layout, Tensor};
 pub use network::{Gradient, NeuralNetwork, Weights, Workspace};
+pub use vertifleet_observe::Shape;

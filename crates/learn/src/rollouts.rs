@@ -8,31 +8,21 @@
 //! network scores them together.
 
 use vertifleet_core::{Time, VertiportIx};
+use vertifleet_observe::PricedDecision;
 use vertifleet_policy::{DayPrices, PricedChoice, RolloutSettings, Shortlist, fleet_worth_usd};
 use vertifleet_sim::{Decision, Imagined};
 
-use crate::gcaps_x::ROLLOUTS;
-use crate::gcaps_x::features::Scene;
+use crate::scorer::Scorer;
 
+/// The settings of the roll-outs that policies learn from, and of those of `gcaps-x`, if its choices
+/// are rolled out at all.
+pub(crate) const ROLLOUTS: RolloutSettings =
+    RolloutSettings { horizon_s: 7_200, rollouts: 8, noise: 0.06, price_weight: 0.5 };
 /// Why a roll-out that the network scores always has a decision.
 const ASKED: &str = "rollouts that have come to their end are not asked";
 /// Most decisions that are scored at once: one of every roll-out of all choices, with the usual
 /// number of roll-outs.
 pub(crate) const MOST_ROWS: usize = Shortlist::MOST * ROLLOUTS.rollouts as usize;
-
-/// A learned policy that scores decisions of many roll-outs together.
-pub(crate) trait Scores {
-    /// Writes down the choices that it decides between.
-    fn list(&mut self, scene: Scene<'_>, listed: &mut Vec<PricedChoice>);
-    /// Forgets all rows, and makes ready for decisions of days with this many vertiports.
-    fn clear(&mut self, vertiports: usize);
-    /// Adds a decision between the choices of its list as a row; there are at most [`MOST_ROWS`].
-    fn push(&mut self, scene: Scene<'_>, listed: &[PricedChoice]);
-    /// Scores all rows.
-    fn forward(&mut self);
-    /// Sets what each choice of a row is worth, dollars. Only differences count.
-    fn rate(&self, row: usize, scene: Scene<'_>, listed: &mut [PricedChoice]);
-}
 
 /// The working memory of the roll-outs of a decision.
 #[derive(Default)]
@@ -67,12 +57,12 @@ impl RolloutPlayer {
     /// Candidates come with their worth to the deciding aircraft alone.
     pub(crate) fn values_usd(
         &mut self,
-        scorer: &mut impl Scores,
+        scorer: &mut Scorer,
         settings: &RolloutSettings,
-        scene: Scene<'_>,
+        scene: PricedDecision<'_>,
         candidates: &[PricedChoice],
     ) -> &[f64] {
-        let Scene { view, decision, prices, .. } = scene;
+        let PricedDecision { view, decision, prices, .. } = scene;
         let until = decision.time + settings.horizon_s;
         self.begin(scene, settings.rollouts, candidates);
         loop {
@@ -80,7 +70,8 @@ impl RolloutPlayer {
             self.asked.clear();
             for (at, rollout) in self.rollouts[..self.used].iter_mut().enumerate() {
                 if self.asked.len() < MOST_ROWS && rollout.go_on(scorer, prices, until) {
-                    scorer.push(rollout.scene(prices), &rollout.listed);
+                    let PricedDecision { view, decision, .. } = rollout.scene(prices);
+                    scorer.push(view, decision, Some((prices, &rollout.listed)));
                     self.asked.push(at);
                 }
             }
@@ -106,8 +97,8 @@ impl RolloutPlayer {
     /// equal.
     pub(crate) fn best(
         &mut self,
-        scorer: &mut impl Scores,
-        scene: Scene<'_>,
+        scorer: &mut Scorer,
+        scene: PricedDecision<'_>,
         candidates: &[PricedChoice],
     ) -> VertiportIx {
         let values_usd = self.values_usd(scorer, &ROLLOUTS, scene, candidates);
@@ -117,7 +108,7 @@ impl RolloutPlayer {
     }
 
     /// Starts the roll-outs of all candidates.
-    fn begin(&mut self, scene: Scene<'_>, each: u32, candidates: &[PricedChoice]) {
+    fn begin(&mut self, scene: PricedDecision<'_>, each: u32, candidates: &[PricedChoice]) {
         self.used = 0;
         for candidate in candidates {
             let begun = scene.view.imagined_in(&mut self.begun);
@@ -145,7 +136,7 @@ impl RolloutPlayer {
 impl Rollout {
     /// Advances to the next decision between more than one choice; returns false at the end of the
     /// roll-out.
-    fn go_on(&mut self, scorer: &mut impl Scores, prices: &DayPrices, until: Time) -> bool {
+    fn go_on(&mut self, scorer: &mut Scorer, prices: &DayPrices, until: Time) -> bool {
         if self.usd.is_some() {
             return false;
         }
@@ -156,7 +147,7 @@ impl Rollout {
                 worth_usd = fleet_worth_usd(prices, simulation.view(), next.time);
                 break;
             }
-            scorer.list(Scene::of(simulation.view(), &next, prices), &mut self.listed);
+            scorer.list(PricedDecision::of(simulation.view(), &next, prices), &mut self.listed);
             if let [only] = self.listed[..] {
                 simulation.apply(only.to).expect("lists are of feasible choices");
                 continue;
@@ -170,24 +161,21 @@ impl Rollout {
     }
 
     /// The decision to be taken next.
-    fn scene<'a>(&'a self, prices: &'a DayPrices) -> Scene<'a> {
-        Scene::of(self.simulation.view(), self.next.as_ref().expect(ASKED), prices)
+    fn scene<'a>(&'a self, prices: &'a DayPrices) -> PricedDecision<'a> {
+        PricedDecision::of(self.simulation.view(), self.next.as_ref().expect(ASKED), prices)
     }
 
     /// Takes the choice that a row of the scorer gives.
     fn follow(
         &mut self,
-        scorer: &impl Scores,
+        scorer: &Scorer,
         settings: &RolloutSettings,
         prices: &DayPrices,
         row: usize,
     ) {
-        let mut listed = std::mem::take(&mut self.listed);
-        scorer.rate(row, self.scene(prices), &mut listed);
-        let decision = self.next.as_ref().expect(ASKED);
-        let rated = listed.iter().copied();
-        let choice = settings.perturbed_best(prices, decision, self.number, rated);
+        let scene = self.scene(prices);
+        let rated = self.listed.iter().map(|&choice| scorer.rated(row, scene, choice));
+        let choice = settings.perturbed_best(prices, scene.decision, self.number, rated);
         self.simulation.apply(choice).expect("lists are of feasible choices");
-        self.listed = listed;
     }
 }

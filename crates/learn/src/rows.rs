@@ -1,16 +1,16 @@
 //! Observations of any number of decisions on days with one number of vertiports, side by side, as
 //! a network takes them. The memory grows with the number of rows and is kept.
 
-use vertifleet_core::VertiportIx;
-use vertifleet_sim::VertiportSet;
+use vertifleet_observe::{Row, Shape};
 
-use crate::nn::{Architecture, Inputs, Shape};
+use crate::nn::{Architecture, Inputs};
 
 /// Rows of features.
 #[derive(Debug, Clone)]
 pub(crate) struct Rows {
     shape: Shape,
-    has_edges: bool,
+    /// The number of weights of edges in a row.
+    edges_a_row: usize,
     nodes: Vec<f32>,
     aircraft: Vec<f32>,
     mask: Vec<u8>,
@@ -18,29 +18,12 @@ pub(crate) struct Rows {
     clock: Vec<f32>,
 }
 
-/// The parts of a row that is being written; all are zeros at first.
-pub(crate) struct Row<'a> {
-    /// Node features [N x F]. The first of each node says whether it may be chosen.
-    pub(crate) nodes: &'a mut [f32],
-    /// Aircraft features [G].
-    pub(crate) aircraft: &'a mut [f32],
-    /// Weights of edges [N x N], or none.
-    pub(crate) edges: &'a mut [f32],
-    /// Share of the day that is left.
-    pub(crate) clock: &'a mut f32,
-}
-
-/// Whether the rows of a policy have weights of edges.
-pub(crate) fn has_edges(policy: &Architecture) -> bool {
-    policy.adjacency().is_observed()
-}
-
 impl Rows {
-    /// No rows yet, for features of this shape and perhaps weights of edges.
-    pub(crate) fn new(shape: Shape, has_edges: bool) -> Self {
+    /// No rows yet, of what a policy observes of days with so many vertiports.
+    pub(crate) fn new(policy: &Architecture, vertiports: usize) -> Self {
         Self {
-            shape,
-            has_edges,
+            shape: policy.shape(vertiports),
+            edges_a_row: policy.edges().map_or(0, |_| vertiports * vertiports),
             nodes: Vec::new(),
             aircraft: Vec::new(),
             mask: Vec::new(),
@@ -52,33 +35,25 @@ impl Rows {
     /// Rows with the features and edges of earlier [`inputs`](Self::inputs), and
     /// with their masks where the features do not tell them.
     pub(crate) fn of(
-        shape: Shape,
+        policy: &Architecture,
+        vertiports: usize,
         nodes: Vec<f32>,
         aircraft: Vec<f32>,
         edges: Option<Vec<f32>>,
         masks: Option<&[f32]>,
     ) -> Self {
-        let clock = vec![0.0; aircraft.len() / shape.aircraft_features];
+        let none = Self::new(policy, vertiports);
+        let clock = vec![0.0; aircraft.len() / none.shape.aircraft_features];
         let open = |&number: &f32| u8::from(number == 1.0);
         let mask = match masks {
             Some(masks) => masks.iter().map(open).collect(),
-            None => nodes.iter().step_by(shape.node_features).map(open).collect(),
+            None => nodes.iter().step_by(none.shape.node_features).map(open).collect(),
         };
-        let has_edges = edges.is_some();
-        Self { shape, has_edges, nodes, aircraft, mask, edges: edges.unwrap_or_default(), clock }
-    }
-
-    pub(crate) fn shape(&self) -> Shape {
-        self.shape
+        Self { nodes, aircraft, mask, edges: edges.unwrap_or_default(), clock, ..none }
     }
 
     pub(crate) fn vertiports(&self) -> usize {
         self.shape.vertiports
-    }
-
-    /// The number of weights of edges in a row.
-    fn edges_a_row(&self) -> usize {
-        if self.has_edges { self.vertiports() * self.vertiports() } else { 0 }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -86,17 +61,17 @@ impl Rows {
     }
 
     pub(crate) fn clear(&mut self) {
-        self.truncate(0);
+        self.resize(0);
     }
 
-    /// Drops all rows after the first `len`.
-    pub(crate) fn truncate(&mut self, len: usize) {
+    /// Drops rows from the end, or adds rows of zeros.
+    pub(crate) fn resize(&mut self, len: usize) {
         let Shape { vertiports, node_features, aircraft_features } = self.shape;
-        self.nodes.truncate(len * vertiports * node_features);
-        self.aircraft.truncate(len * aircraft_features);
-        self.mask.truncate(len * vertiports);
-        self.edges.truncate(len * self.edges_a_row());
-        self.clock.truncate(len);
+        self.nodes.resize(len * vertiports * node_features, 0.0);
+        self.aircraft.resize(len * aircraft_features, 0.0);
+        self.mask.resize(len * vertiports, 0);
+        self.edges.resize(len * self.edges_a_row, 0.0);
+        self.clock.resize(len, 0.0);
     }
 
     /// All rows as the input of a network.
@@ -113,44 +88,34 @@ impl Rows {
 
     /// Adds a copy of a row of `from`, which has the same shape.
     pub(crate) fn push_copy(&mut self, from: &Self, row: usize) {
-        fn part<T>(all: &[T], row: usize, width: usize) -> &[T] {
-            &all[row * width..][..width]
-        }
-        let Shape { vertiports, node_features, aircraft_features } = self.shape;
-        self.nodes.extend(part(&from.nodes, row, vertiports * node_features));
-        self.aircraft.extend(part(&from.aircraft, row, aircraft_features));
-        self.mask.extend(part(&from.mask, row, vertiports));
-        self.edges.extend(part(&from.edges, row, self.edges_a_row()));
-        self.clock.push(from.clock[row]);
+        self.resize(self.len() + 1);
+        self.copy(self.len() - 1, from, row);
     }
 
-    /// Adds a row, which `write` writes, of a decision between these vertiports. The features need
-    /// not tell which they are.
-    pub(crate) fn push_between(&mut self, open: VertiportSet, write: impl FnOnce(&mut Row<'_>)) {
-        self.push(write);
-        let first = self.mask.len() - self.shape.vertiports;
-        for (at, mask) in self.mask[first..].iter_mut().enumerate() {
-            *mask = u8::from(open.contains(VertiportIx::new(at)));
+    /// Makes row `at` a copy of a row of `from`, which has the same shape.
+    pub(crate) fn copy(&mut self, at: usize, from: &Self, row: usize) {
+        fn part<T: Copy>(to: &mut [T], at: usize, from: &[T], row: usize, width: usize) {
+            to[at * width..][..width].copy_from_slice(&from[row * width..][..width]);
         }
+        let Shape { vertiports, node_features, aircraft_features } = self.shape;
+        part(&mut self.nodes, at, &from.nodes, row, vertiports * node_features);
+        part(&mut self.aircraft, at, &from.aircraft, row, aircraft_features);
+        part(&mut self.mask, at, &from.mask, row, vertiports);
+        part(&mut self.edges, at, &from.edges, row, self.edges_a_row);
+        self.clock[at] = from.clock[row];
     }
 
     /// Adds a row, which `write` writes.
     pub(crate) fn push(&mut self, write: impl FnOnce(&mut Row<'_>)) {
+        let row = self.len();
+        self.resize(row + 1);
         let Shape { vertiports, node_features, aircraft_features } = self.shape;
-        let edges = self.edges_a_row();
-        let first = [&self.nodes, &self.aircraft, &self.edges, &self.clock];
-        let first = first.map(Vec::len);
-        self.nodes.resize(first[0] + vertiports * node_features, 0.0);
-        self.aircraft.resize(first[1] + aircraft_features, 0.0);
-        self.edges.resize(first[2] + edges, 0.0);
-        self.clock.push(0.0);
         write(&mut Row {
-            nodes: &mut self.nodes[first[0]..],
-            aircraft: &mut self.aircraft[first[1]..],
-            edges: &mut self.edges[first[2]..],
-            clock: &mut self.clock[first[3]],
+            nodes: &mut self.nodes[row * vertiports * node_features..],
+            aircraft: &mut self.aircraft[row * aircraft_features..],
+            mask: &mut self.mask[row * vertiports..],
+            edges: &mut self.edges[row * self.edges_a_row..],
+            clock: &mut self.clock[row],
         });
-        let chosen = self.nodes[first[0]..].iter().step_by(node_features);
-        self.mask.extend(chosen.map(|&chosen| u8::from(chosen == 1.0)));
     }
 }

@@ -1,5 +1,6 @@
 //! Parts side by side in one row of numbers.
 
+use crate::priced::PricedDecision;
 use crate::write::Writer;
 use crate::{Observer, Part, Scene, Sizes};
 
@@ -62,11 +63,15 @@ impl Layout {
     pub fn write(&self, row: &mut [f32], scene: &Scene<'_>, observer: &mut Observer) {
         assert_eq!(row.len(), self.width, "a row has the layout's width");
         row.fill(0.0);
-        let Observer { scales, priced, full } = observer;
-        let Scene { view, decision, over, .. } = *scene;
+        let Observer { scales, prices, shortlist, priced, full } = observer;
+        let Scene { view, decision, feasible, over } = *scene;
         // A day that is over has no more prices, and nothing is left to decide.
-        let priced = (self.is_priced && !over).then(|| priced.observe(view, decision));
-        let full = (self.is_of_the_full && !over).then(|| full.observe(view, decision));
+        let priced = (self.is_priced && !over).then(|| {
+            let prices = prices.at(view, decision);
+            let listed = shortlist.rank(prices, view, decision);
+            priced.look(PricedDecision::of(view, decision, prices), listed)
+        });
+        let full = (self.is_of_the_full && !over).then(|| full.look(view, decision, feasible));
         let writer = Writer { scene, sizes: self.sizes, scales, priced, full, natural: false };
         for &Placed { part, first, len } in &self.parts {
             writer.write(part, &mut row[first..first + len]);

@@ -5,7 +5,8 @@
 //! filled without allocating memory. Everything in a row comes from a
 //! [`View`](vertifleet_sim::View), so it shows what is known at the decision and nothing else.
 //!
-//! This crate builds on `vertifleet-learn`, whose policies see some of these parts.
+//! Learned policies decide by some of these numbers; a [`Writer`] writes an [`Observation`] as their
+//! networks take it.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -33,18 +34,27 @@
     reason = "observations are in single precision; what is truncated on the way there is meant to be"
 )]
 
+mod board;
+mod column;
+mod full;
 mod layout;
+mod observation;
 mod observer;
 mod pairs;
+mod paper;
 mod part;
 mod preset;
+mod priced;
 mod scene;
 mod sizes;
 mod write;
 
+pub use full::Edges;
 pub use layout::{Layout, Placed, write_in_units};
+pub use observation::{Observation, Row, Shape, Writer};
 pub use observer::Observer;
 pub use part::{Axis, Info, Part};
 pub use preset::{PRESETS, preset};
+pub use priced::{LOGITS_A_UNIT, PricedDecision};
 pub use scene::Scene;
 pub use sizes::Sizes;

@@ -1,7 +1,10 @@
 //! What the observations of a day need beside the day itself.
 
 use vertifleet_core::{FeatureScales, Network};
-use vertifleet_learn::{FullObserver, PricedObserver, Scales};
+use vertifleet_policy::{PriceMemory, Shortlist};
+
+use crate::paper::Scales;
+use crate::{full, priced};
 
 /// The scales of a day's network, which divide the paper's parts, the memory of its bid prices,
 /// which parts that show prices need, and that of its unit of money, which parts of the full
@@ -9,8 +12,10 @@ use vertifleet_learn::{FullObserver, PricedObserver, Scales};
 #[derive(Debug, Clone)]
 pub struct Observer {
     pub(crate) scales: Scales,
-    pub(crate) priced: PricedObserver,
-    pub(crate) full: FullObserver,
+    pub(crate) prices: PriceMemory,
+    pub(crate) shortlist: Shortlist,
+    pub(crate) priced: priced::Eye,
+    pub(crate) full: full::Eye,
 }
 
 impl Observer {
@@ -22,8 +27,10 @@ impl Observer {
     fn scaled(scales: FeatureScales) -> Self {
         Self {
             scales: Scales::from(scales),
-            priced: PricedObserver::default(),
-            full: FullObserver::default(),
+            prices: PriceMemory::default(),
+            shortlist: Shortlist::default(),
+            priced: priced::Eye::default(),
+            full: full::Eye::default(),
         }
     }
 }

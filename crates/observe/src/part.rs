@@ -1,7 +1,7 @@
 //! The parts that an observation is made of. The table of `docs/src/reference/observations.md` is
 //! held to this one by a test.
 
-use crate::Sizes;
+use crate::{Observation, Shape, Sizes};
 
 /// An axis of a part's array.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -125,6 +125,9 @@ const fn info(
 const V: &[Axis] = &[Axis::Vertiports];
 const PAIR: &[Axis] = &[Axis::Vertiports, Axis::Vertiports];
 const FLEET: &[Axis] = &[Axis::Aircraft];
+/// The features of learned policies, whose numbers do not depend on that of vertiports.
+const PRICED: Shape = Observation::Priced.shape(0);
+const FULL: Shape = Observation::Full.shape(0);
 
 /// All parts, in the order of [`Part`].
 #[rustfmt::skip]
@@ -207,15 +210,15 @@ const INFOS: [Info; 46] = [
         "share of the day that is left"),
     info(Part::Adjacency, ("adjacency", None), PAIR, NONE, SHARE,
         "1 where the deciding aircraft's type can fly now"),
-    info(Part::PricedNodes, ("priced_nodes", None), &[Axis::Vertiports, Axis::Of(24)], NONE, ANY,
+    info(Part::PricedNodes, ("priced_nodes", None), &[Axis::Vertiports, Axis::Of(PRICED.node_features)], NONE, ANY,
         "the node features of gcaps-x; the first is 1 for each choice of the shortlist"),
-    info(Part::PricedAircraft, ("priced_aircraft", None), &[Axis::Of(10)], NONE, ANY,
+    info(Part::PricedAircraft, ("priced_aircraft", None), &[Axis::Of(PRICED.aircraft_features)], NONE, ANY,
         "the aircraft features of gcaps-x"),
     info(Part::PricedWorth, ("priced_worth", None), V, NONE, ANY,
         "worth of each choice of the shortlist at the bid prices, less that of the best, in the unit of gcaps-x's logits; 0 elsewhere"),
-    info(Part::FullNodes, ("full_nodes", None), &[Axis::Vertiports, Axis::Of(37)], NONE, ANY,
+    info(Part::FullNodes, ("full_nodes", None), &[Axis::Vertiports, Axis::Of(FULL.node_features)], NONE, ANY,
         "the node features of gcaps-full and mlp-full; the first is 1 for each feasible choice"),
-    info(Part::FullAircraft, ("full_aircraft", None), &[Axis::Of(11)], NONE, ANY,
+    info(Part::FullAircraft, ("full_aircraft", None), &[Axis::Of(FULL.aircraft_features)], NONE, ANY,
         "the aircraft features of gcaps-full and mlp-full"),
     info(Part::DistanceEdges, ("distance_edges", None), PAIR, NONE, SHARE,
         "1 / (1 + hours of flight), for the deciding aircraft's type; 0 out of range"),
@@ -303,8 +306,8 @@ impl Axis {
             Self::Types => sizes.types,
             Self::Periods => sizes.periods,
             Self::Of(entries) => entries,
-            Self::PaperNode => vertifleet_learn::shape(sizes.vertiports).node_features,
-            Self::PaperAircraft => vertifleet_learn::shape(sizes.vertiports).aircraft_features,
+            Self::PaperNode => Observation::Paper.shape(sizes.vertiports).node_features,
+            Self::PaperAircraft => Observation::Paper.shape(sizes.vertiports).aircraft_features,
         }
     }
 }

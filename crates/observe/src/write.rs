@@ -1,12 +1,13 @@
 //! Writes each part from what is seen of the day.
 
 use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
-use vertifleet_learn::nn::Adjacency;
-use vertifleet_learn::{FullObservation, FullObserver, PricedObservation, PricedObserver, Scales};
 use vertifleet_sim::Leg;
 
+use crate::column::hours;
+use crate::full::{self, Edges};
 use crate::pairs::Pairs;
-use crate::{Part, Scene, Sizes};
+use crate::paper::Scales;
+use crate::{Part, Scene, Sizes, priced};
 
 /// Seconds from now to each of the times of [`Part::ClosedAhead`].
 const AHEAD_S: [u32; 4] = [900, 1_800, 2_700, 3_600];
@@ -20,10 +21,10 @@ pub(crate) struct Writer<'a> {
     pub(crate) sizes: Sizes,
     pub(crate) scales: &'a Scales,
     /// The decision at the day's bid prices, if a part needs them and the day is not over.
-    pub(crate) priced: Option<PricedObservation<'a>>,
+    pub(crate) priced: Option<priced::Look<'a>>,
     /// The decision as policies of the full observation see it, if a part needs that and the day is
     /// not over.
-    pub(crate) full: Option<FullObservation<'a>>,
+    pub(crate) full: Option<full::Look<'a>>,
     /// Whether numbers stay in their units, instead of being divided by their scales.
     pub(crate) natural: bool,
 }
@@ -80,13 +81,13 @@ impl Writer<'_> {
             Part::Adjacency => pairs().sets(to, |from| {
                 view.within_range(self.scene.kind(), from).without(&view.closed(from))
             }),
-            Part::PricedNodes => copied(to, self.priced.map(|priced| priced.nodes)),
-            Part::PricedAircraft => copied(to, self.priced.map(|priced| priced.aircraft)),
-            Part::PricedWorth => copied(to, self.priced.map(|priced| priced.worth)),
-            Part::FullNodes => copied(to, self.full.map(|full| full.nodes)),
-            Part::FullAircraft => copied(to, self.full.map(|full| full.aircraft)),
-            Part::DistanceEdges => self.edges(to, Adjacency::Distance),
-            Part::ProfitEdges => self.edges(to, Adjacency::Profit),
+            Part::PricedNodes => self.at_prices(|look| look.write_nodes(to)),
+            Part::PricedAircraft => self.at_prices(|look| look.write_aircraft(to)),
+            Part::PricedWorth => self.at_prices(|look| look.write_worth(to)),
+            Part::FullNodes => self.in_full(|look| look.write_nodes(to)),
+            Part::FullAircraft => self.in_full(|look| look.write_aircraft(to)),
+            Part::DistanceEdges => self.in_full(|look| look.write_edges(Edges::Distance, self.sizes.vertiports, to)),
+            Part::ProfitEdges => self.in_full(|look| look.write_edges(Edges::Profit, self.sizes.vertiports, to)),
         }
     }
 
@@ -165,9 +166,15 @@ impl Writer<'_> {
         }
     }
 
-    fn edges(&self, to: &mut [f32], adjacency: Adjacency) {
-        if let Some(full) = self.full {
-            full.write_edges(adjacency, self.sizes.vertiports, to);
+    fn at_prices(&self, write: impl FnOnce(priced::Look<'_>)) {
+        if let Some(look) = self.priced {
+            write(look);
+        }
+    }
+
+    fn in_full(&self, write: impl FnOnce(full::Look<'_>)) {
+        if let Some(look) = self.full {
+            write(look);
         }
     }
 
@@ -214,13 +221,6 @@ impl Writer<'_> {
     }
 }
 
-/// Copies the numbers that a policy sees, if there are any.
-fn copied(to: &mut [f32], numbers: Option<&[f32]>) {
-    if let Some(numbers) = numbers {
-        to[..numbers.len()].copy_from_slice(numbers);
-    }
-}
-
 /// A flight that the deciding aircraft could begin.
 #[derive(Clone, Copy)]
 struct Flight<'a> {
@@ -228,16 +228,8 @@ struct Flight<'a> {
     leg: &'a Leg,
 }
 
-fn hours(seconds: u32) -> f64 {
-    f64::from(seconds) / 3_600.0
-}
-
 fn scaled(to: &mut [f32], from: &[f64], factor: f64) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = (from * factor) as f32;
     }
 }
-
-const _: () =
-    assert!(PricedObserver::NODE_FEATURES == 24 && PricedObserver::AIRCRAFT_FEATURES == 10);
-const _: () = assert!(FullObserver::NODE_FEATURES == 37 && FullObserver::AIRCRAFT_FEATURES == 11);

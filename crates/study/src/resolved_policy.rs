@@ -5,7 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use vertifleet_core::{Scenario, Stop};
-use vertifleet_learn::{Curve, Model};
+use vertifleet_learn::{Curve, Model, Observation};
 use vertifleet_optimize::Rolling;
 use vertifleet_picture::numbers::grouped;
 use vertifleet_policy::{BidPricePolicy, Greedy, Policy, Random, Replay, Stoppable, play};
@@ -149,7 +149,9 @@ impl ResolvedPolicy {
             Self::Own(factory) => factory.sees,
             Self::Replay(_) => Sees::WholeDay,
             Self::Random(_) | Self::Greedy => Sees::Present,
-            Self::Learned { model, .. } if !model.header().policy.sees_the_forecast() => {
+            Self::Learned { model, .. }
+                if model.header().policy.observation() == Observation::Paper =>
+            {
                 Sees::Present
             }
             Self::BidPrices | Self::Rolling | Self::Learned { .. } => Sees::Forecast,
@@ -168,12 +170,14 @@ impl ResolvedPolicy {
             Self::Learned { model, most_rolled_out, .. } => {
                 let header = model.header();
                 let decisions = grouped(header.steps as f64, 0);
-                match (header.policy.sees_prices(), most_rolled_out) {
-                    (false, _) => {
+                match (header.policy.observation(), most_rolled_out) {
+                    (Observation::Paper | Observation::Full, _) => {
                         format!("learned on {} from {decisions} decisions", header.network)
                     }
-                    (true, 1) => format!("learned what prices miss from {decisions} decisions"),
-                    (true, most) => format!(
+                    (Observation::Priced, 1) => {
+                        format!("learned what prices miss from {decisions} decisions")
+                    }
+                    (Observation::Priced, most) => format!(
                         "learned what prices miss from {decisions} decisions; rolls its {most} best choices out"
                     ),
                 }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use rayon::prelude::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{Scenario, Stop, World};
+use vertifleet_observe::Observation;
 use vertifleet_policy::units_usd;
 use vertifleet_sim::{DayTotals, Simulation};
 
@@ -17,7 +18,6 @@ use crate::evolution::{EvolutionRow, EvolutionSettings};
 use crate::header::Header;
 use crate::lockstep::play_together;
 use crate::model::Model;
-use crate::nn::Architecture;
 use crate::run::begin::{Begin, training_days};
 use crate::run::checkpoint::{self, BEST_PARAMS};
 use crate::run::{Curve, RunIdentity, TrainingRequest, TrainingRun, Work, check_finite};
@@ -281,7 +281,7 @@ fn day_unit_usd(day: &Arc<Scenario>) -> f64 {
 fn play_days(model: &Model, days: &[Arc<Scenario>]) -> Vec<DayTotals> {
     let mut policy = model.policy(1);
     // It keeps the prices of one day at a time.
-    if matches!(model.header().policy, Architecture::GcapsX(_)) {
+    if model.header().policy.observation() == Observation::Priced {
         return days.iter().map(|day| played(policy.as_mut(), day)).collect();
     }
     days.chunk_by(|one, other| one.vertiports.len() == other.vertiports.len())

@@ -7,10 +7,10 @@ use std::collections::btree_map::Entry;
 
 use safetensors::tensor::SafeTensors;
 use vertifleet_core::VertiportIx;
+use vertifleet_observe::{Observation, Shape};
 
-use crate::header::shape_of;
-use crate::nn::{Architecture, Inputs, Shape};
-use crate::rows::{Rows, has_edges};
+use crate::nn::{Architecture, Inputs};
+use crate::rows::Rows;
 use crate::run::checkpoint::tensor;
 
 /// Samples from days with one number of vertiports.
@@ -56,7 +56,7 @@ impl Samples {
 
     /// Drops all samples after the first `len`.
     fn truncate(&mut self, len: usize) {
-        self.rows.truncate(len);
+        self.rows.resize(len);
         self.priced.truncate(len * self.rows.vertiports());
         self.values.truncate(len * self.rows.vertiports());
     }
@@ -83,7 +83,7 @@ const TENSORS: [&str; 6] = ["nodes", "aircraft", "priced", "values", "edges", "m
 
 /// Whether the features of a policy do not tell which vertiports may be chosen.
 fn has_masks(policy: &Architecture) -> bool {
-    !policy.sees_the_forecast()
+    policy.observation() == Observation::Paper
 }
 
 impl Dataset {
@@ -157,18 +157,18 @@ impl Samples {
                 "samples must have 1 to {MOST_VERTIPORTS} vertiports, found {vertiports}"
             ));
         }
-        let shape = shape_of(policy, vertiports);
-        let Shape { node_features, aircraft_features, .. } = shape;
+        let Shape { node_features, aircraft_features, .. } = policy.shape(vertiports);
         let [nodes, aircraft, priced, values, edges, masks] =
             TENSORS.map(|name| tensor_name(vertiports, name));
         let numbers = file.tensor(&aircraft).map_err(|error| error.to_string())?.data().len() / 4;
         let rows = numbers / aircraft_features;
         let tensor = |name: &str, entries: usize| tensor(file, name, entries);
         let masks = has_masks(policy).then(|| tensor(&masks, rows * vertiports));
-        let edges = has_edges(policy).then(|| tensor(&edges, rows * vertiports * vertiports));
+        let edges = policy.edges().map(|_| tensor(&edges, rows * vertiports * vertiports));
         let samples = Self {
             rows: Rows::of(
-                shape,
+                policy,
+                vertiports,
                 tensor(&nodes, rows * vertiports * node_features)?,
                 tensor(&aircraft, rows * aircraft_features)?,
                 edges.transpose()?,

@@ -11,24 +11,25 @@ use std::sync::Arc;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{Scenario, Stop, World};
+use vertifleet_observe::PricedDecision;
 use vertifleet_policy::{DayPrices, Shortlist, draw};
 use vertifleet_sim::Simulation;
 
 use crate::adam::Adam;
 use crate::error::Error;
-use crate::features::Scales;
-use crate::gcaps_x::features::Scene;
 use crate::header::Header;
 use crate::imitation::dataset::{Dataset, Samples};
-use crate::imitation::teacher::{Sees, Student, Teacher};
+use crate::imitation::teacher::Teacher;
 use crate::imitation::update::{Fit, Learner, Pace};
 use crate::imitation::{ImitationRow, ImitationSettings};
 use crate::model::Model;
 use crate::nn::Weights;
+use crate::rows::Rows;
 use crate::run::begin::{Begin, training_days};
 use crate::run::{
     Curve, RunIdentity, TrainingRequest, TrainingRun, Work, check_finite, checkpoint,
 };
+use crate::scorer::Scorer;
 use crate::validation::ValidationDays;
 
 /// About how many decisions an aircraft takes on a day.
@@ -167,14 +168,13 @@ impl ImitationRun {
     /// Plays a day and rolls out a share of its decisions.
     fn samples(&self, day: &Arc<Scenario>, actor: Option<&Arc<Weights>>) -> Samples {
         let vertiports = day.vertiports.len();
-        let scales = self.header.feature_scales.map(Scales::from);
-        let sees = Sees { policy: &self.identity.policy, scales };
-        let mut student = actor.map(|weights| Student::of(sees, weights, vertiports));
+        let (policy, scales) = (&self.header.policy, self.header.feature_scales);
+        let mut student = actor.map(|weights| Scorer::new(policy, scales, Arc::clone(weights)));
         let is_own = self.rolls_itself_out(self.rounds_done());
         let share =
             f64::from(self.settings.samples) / (DECISIONS_AN_AIRCRAFT * day.aircraft.len() as f64);
-        let (mut teacher, mut samples) =
-            Teacher::of(sees, vertiports, self.settings.expert.clone());
+        let mut teacher = Teacher::of(policy, scales, self.settings.expert.clone());
+        let mut samples = Samples::new(Rows::new(policy, vertiports));
         let mut shortlist = Shortlist::default();
         let mut simulation = Simulation::new(Arc::clone(day));
         let mut prices: Option<DayPrices> = None;
@@ -183,7 +183,7 @@ impl ImitationRun {
             let prices = prices.get_or_insert_with(|| DayPrices::of(view, decision.time));
             prices.refresh(view, decision.time);
             let listed = shortlist.rank(prices, view, &decision);
-            let scene = Scene::of(view, &decision, prices);
+            let scene = PricedDecision::of(view, &decision, prices);
             let bits = |what: u64| draw(what, day.seed, decision.index) >> 11;
             let chance = |what: u64| bits(what) as f64 / (1_u64 << 53) as f64;
             if listed.len() > 1 && chance(1) < share {

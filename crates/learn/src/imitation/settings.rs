@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use vertifleet_policy::RolloutSettings;
 
 use crate::error::Error;
-use crate::gcaps_x::ROLLOUTS;
+use crate::rollouts::ROLLOUTS;
 use crate::settings::within;
 
 /// What a run learns from, and how.

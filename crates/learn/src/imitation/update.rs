@@ -16,13 +16,12 @@ use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
+use vertifleet_observe::{LOGITS_A_UNIT, Observation};
 
 use crate::adam::{Adam, clip_norm};
-use crate::gcaps_x::scorer::LOGITS_A_UNIT;
-use crate::header::network;
 use crate::imitation::dataset::{Dataset, Samples};
 use crate::nn::{self, Architecture, Gradient, Slopes, Weights, Workspace};
-use crate::rows::{Rows, has_edges};
+use crate::rows::Rows;
 
 /// Vertiports per forward and backward pass: as many as the second-level cache holds. The aircraft
 /// of a graph of them come on top; they are not counted, so that the steps of a run do not depend
@@ -90,7 +89,7 @@ impl Learner {
         params: Vec<f32>,
         adam: Adam,
     ) -> Self {
-        let net = network(&architecture, vertiports);
+        let net = architecture.network(vertiports);
         let lane = || Lane {
             sized: None,
             gradient: net.gradient(),
@@ -167,9 +166,9 @@ impl Lane {
         let Self { sized, gradient, slopes, no_slopes, fit } = self;
         let vertiports = samples.rows.vertiports();
         if sized.as_ref().is_none_or(|(_, _, rows)| rows.vertiports() != vertiports) {
-            let net = network(architecture, vertiports);
+            let net = architecture.network(vertiports);
             let workspace = net.workspace(chunk_rows(vertiports));
-            let rows = Rows::new(samples.rows.shape(), has_edges(architecture));
+            let rows = Rows::new(architecture, vertiports);
             *sized = Some((net, workspace, rows));
         }
         let (net, workspace, chosen) = sized.as_mut().expect("made above");
@@ -208,7 +207,10 @@ struct Advice<'a> {
 
 /// What a unit of worth at the prices adds to a logit when this policy decides.
 fn priced_weight(policy: &Architecture) -> f32 {
-    if policy.sees_prices() { LOGITS_A_UNIT as f32 } else { 0.0 }
+    match policy.observation() {
+        Observation::Priced => LOGITS_A_UNIT as f32,
+        Observation::Paper | Observation::Full => 0.0,
+    }
 }
 
 /// Sets the slopes of a decision's loss, times `weight`. Returns how well the decision was taken.

@@ -1,18 +1,11 @@
-//! The kinds of policies and their sizes, as the header of a weight file states them.
+//! The kinds of policies and their sizes, as the header of a weight file states them. A kind is an
+//! observation and a network; the table in [`Architecture::parts`] says which.
 
 use serde::{Deserialize, Serialize};
+use vertifleet_core::FeatureScales;
+use vertifleet_observe::{Edges, Observation, Shape, Writer};
 
-/// The sizes of a network's features.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Shape {
-    /// N, the number of vertiports.
-    pub vertiports: usize,
-    /// F, the number of features of a node; 2N + 4 for `gcaps` and `mlp`.
-    pub node_features: usize,
-    /// G, the number of features of the aircraft; 2N + 2 for `gcaps` and `mlp`.
-    pub aircraft_features: usize,
-}
+use crate::nn::network::NeuralNetwork;
 
 /// The kind of a policy, with its sizes.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -160,13 +153,6 @@ impl GraphSettings {
         Self { attention: true, ..*self }.is_of_the_paper()
     }
 
-    fn adjacency_in_use(&self) -> Adjacency {
-        match self.encoder {
-            EncoderKind::Capsules => self.adjacency,
-            EncoderKind::Transformer => Adjacency::Complete,
-        }
-    }
-
     /// Checks that the sizes are such as can be meant.
     ///
     /// # Errors
@@ -179,14 +165,6 @@ impl GraphSettings {
         within("moments", self.moments, 1, 4)?;
         within("hops", self.hops, 0, 4)?;
         within("layers", self.layers, 1, 8)
-    }
-}
-
-impl Adjacency {
-    /// Whether the weights come with the observation, and do not follow from the features of the
-    /// vertiports.
-    pub fn is_observed(self) -> bool {
-        matches!(self, Self::Distance | Self::Reachable | Self::Profit)
     }
 }
 
@@ -213,20 +191,71 @@ impl Architecture {
         }
     }
 
-    /// What makes vertiports neighbours; every vertiport is that of every other where there is no
-    /// graph.
-    pub fn adjacency(&self) -> Adjacency {
+    /// The table of all kinds: name, observation and network.
+    fn parts(&self) -> (&'static str, Observation, Layers<'_>) {
+        use Layers::{Graph, Plain};
         match self {
-            Self::Gcaps(settings) | Self::GcapsX(settings) | Self::GcapsFull(settings) => {
-                settings.graph.adjacency_in_use()
-            }
-            Self::Mlp(_) | Self::MlpFull(_) => Adjacency::Complete,
+            Self::Gcaps(sizes) => ("gcaps", Observation::Paper, Graph(sizes)),
+            Self::Mlp(sizes) => ("mlp", Observation::Paper, Plain(sizes)),
+            Self::GcapsX(sizes) => ("gcaps-x", Observation::Priced, Graph(sizes)),
+            Self::GcapsFull(sizes) => ("gcaps-full", Observation::Full, Graph(sizes)),
+            Self::MlpFull(sizes) => ("mlp-full", Observation::Full, Plain(sizes)),
         }
     }
 
-    /// Whether the weights fit networks of any size.
+    /// The policy's name.
+    pub fn name(&self) -> &'static str {
+        self.parts().0
+    }
+
+    /// What the policy observes.
+    pub fn observation(&self) -> Observation {
+        self.parts().1
+    }
+
+    /// The policy's network.
+    pub(crate) fn layers(&self) -> Layers<'_> {
+        self.parts().2
+    }
+
+    /// The shape of what the policy observes of a day with so many vertiports.
+    pub(crate) fn shape(&self, vertiports: usize) -> Shape {
+        self.observation().shape(vertiports)
+    }
+
+    /// The weights of edges that the network reads with each observation. Other graphs follow from
+    /// the features of the vertiports, or are complete.
+    pub fn edges(&self) -> Option<Edges> {
+        let Layers::Graph(GcapsSettings { graph, .. }) = self.layers() else { return None };
+        match (graph.encoder, graph.adjacency) {
+            (EncoderKind::Capsules, Adjacency::Distance) => Some(Edges::Distance),
+            (EncoderKind::Capsules, Adjacency::Reachable) => Some(Edges::Reachable),
+            (EncoderKind::Capsules, Adjacency::Profit) => Some(Edges::Profit),
+            _ => None,
+        }
+    }
+
+    /// The writer of what the policy observes; `scales` are for the paper's observation.
+    pub(crate) fn writer(&self, scales: Option<FeatureScales>) -> Writer {
+        Writer::new(self.observation(), scales, self.edges())
+    }
+
+    /// The network for this number of vertiports.
+    pub(crate) fn network(&self, vertiports: usize) -> NeuralNetwork {
+        NeuralNetwork::new(self.clone(), self.shape(vertiports)).expect(
+            "sizes were checked when the weights were made, and days have at most 256 vertiports",
+        )
+    }
+
+    /// Whether the policy can learn by PPO, for which it needs a value of the present alone. Every
+    /// policy can learn by imitation of roll-outs.
+    pub fn learns_by_ppo(&self) -> bool {
+        self.observation() == Observation::Paper
+    }
+
+    /// Whether the weights fit networks of any size: neither features nor layers grow with it.
     pub fn fits_any_size(&self) -> bool {
-        matches!(self, Self::GcapsX(_) | Self::GcapsFull(_))
+        self.observation() != Observation::Paper && matches!(self.layers(), Layers::Graph(_))
     }
 
     /// Checks that the graph is one that the policy's observation shows.
@@ -234,42 +263,23 @@ impl Architecture {
     /// # Errors
     /// Returns the rule that is broken.
     pub(crate) fn check_graph(&self) -> Result<(), String> {
-        let name = self.name();
-        if matches!(self, Self::GcapsFull(_)) {
-            Ok(())
-        } else if self.adjacency().is_observed() {
-            Err(format!("the observation of {name} shows no flights between two other vertiports"))
-        } else {
-            Ok(())
+        if self.edges().is_some() && self.observation() != Observation::Full {
+            let name = self.name();
+            return Err(format!(
+                "the observation of {name} shows no flights between two other vertiports"
+            ));
         }
+        Ok(())
     }
+}
 
-    /// Whether the policy decides by the day's bid prices and its network.
-    pub fn sees_prices(&self) -> bool {
-        matches!(self, Self::GcapsX(_))
-    }
-
-    /// Whether the policy's observation shows what the forecast says; that of the paper shows the
-    /// present alone.
-    pub fn sees_the_forecast(&self) -> bool {
-        !matches!(self, Self::Gcaps(_) | Self::Mlp(_))
-    }
-
-    /// Whether the policy can learn by PPO. Every policy can learn by imitation of roll-outs.
-    pub fn learns_by_ppo(&self) -> bool {
-        matches!(self, Self::Gcaps(_) | Self::Mlp(_))
-    }
-
-    /// The policy's name.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Gcaps(_) => "gcaps",
-            Self::Mlp(_) => "mlp",
-            Self::GcapsX(_) => "gcaps-x",
-            Self::GcapsFull(_) => "gcaps-full",
-            Self::MlpFull(_) => "mlp-full",
-        }
-    }
+/// The layers of a policy's network, with their sizes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Layers<'a> {
+    /// Graph capsules and attention.
+    Graph(&'a GcapsSettings),
+    /// Plain layers.
+    Plain(&'a MlpSettings),
 }
 
 /// Larger sizes can only come from a damaged file, and could ask for more memory than there is.

@@ -25,7 +25,9 @@ use products::{EncoderProducts, Products};
 use reads::Reads;
 use self_attention::{AttentionSpace, SelfAttention};
 
-use crate::nn::architecture::{EncoderKind, GcapsSettings, Shape, check_size};
+use vertifleet_observe::Shape;
+
+use crate::nn::architecture::{EncoderKind, GcapsSettings, check_size};
 use crate::nn::batch::{Inputs, Outputs, Slopes};
 use crate::nn::init::{self, Init};
 use crate::nn::layer_norm::LayerNorm;

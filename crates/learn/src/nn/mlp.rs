@@ -1,7 +1,9 @@
 //! The paper's baseline (§V.B): plain layers on the flattened features, with the same mask and
 //! value head as `gcaps`.
 
-use crate::nn::architecture::{MlpSettings, Shape, check_size};
+use vertifleet_observe::Shape;
+
+use crate::nn::architecture::{MlpSettings, check_size};
 use crate::nn::batch::{Inputs, Outputs, Slopes};
 use crate::nn::init::{BEFORE_RELU, LOGITS};
 use crate::nn::layout::{Layout, Tensors};

@@ -1,6 +1,8 @@
 //! One interface to the networks of all kinds: forward pass, backward pass, and weights.
 
-use crate::nn::architecture::{Architecture, Shape, check_size};
+use vertifleet_observe::Shape;
+
+use crate::nn::architecture::{Architecture, Layers, check_size};
 use crate::nn::batch::{Inputs, Outputs, Slopes};
 use crate::nn::gcaps::{Gcaps, GcapsSpace};
 use crate::nn::init;
@@ -70,14 +72,12 @@ impl NeuralNetwork {
         check_size("vertiports", shape.vertiports)?;
         check_size("node_features", shape.node_features)?;
         check_size("aircraft_features", shape.aircraft_features)?;
-        let (body, layout, derived, folded) = match &architecture {
-            Architecture::Gcaps(settings)
-            | Architecture::GcapsX(settings)
-            | Architecture::GcapsFull(settings) => {
+        let (body, layout, derived, folded) = match architecture.layers() {
+            Layers::Graph(settings) => {
                 let (body, layout, products, folded) = Gcaps::new(settings, shape)?;
                 (Body::Gcaps(Box::new(body)), layout, products.len(), folded)
             }
-            Architecture::Mlp(settings) | Architecture::MlpFull(settings) => {
+            Layers::Plain(settings) => {
                 let (body, layout) = Mlp::new(settings, shape)?;
                 (Body::Mlp(body), layout, 0, 0)
             }
@@ -242,7 +242,7 @@ impl NeuralNetwork {
         );
         assert_eq!(inputs.mask.len(), batch * vertiports, "mask of the batch");
         assert_eq!(inputs.clock.len(), batch, "clocks of the batch");
-        if self.architecture.adjacency().is_observed() {
+        if self.architecture.edges().is_some() {
             assert_eq!(inputs.edges.len(), batch * vertiports * vertiports, "edges of the batch");
         }
     }

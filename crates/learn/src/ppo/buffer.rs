@@ -10,14 +10,15 @@ use std::sync::Arc;
 
 use rayon::prelude::{IntoParallelRefMutIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
-use vertifleet_core::{DaySeed, Purpose, VertiportIx, World};
+use vertifleet_core::{DaySeed, FeatureScales, Purpose, VertiportIx, World};
+use vertifleet_observe::Writer;
 use vertifleet_policy::draw;
 use vertifleet_sim::{Decision, Simulation};
 
 use crate::error::Error;
-use crate::features::{Observations, Scales};
 use crate::nn::{self, Weights, Workspace};
 use crate::ppo::PpoSettings;
+use crate::rows::Rows;
 
 /// Number of days that share one inference: large enough for the matrix products, small enough for
 /// the cache.
@@ -38,8 +39,8 @@ impl Source {
     }
 
     /// What features are divided by, which is the same on all networks of a world.
-    fn scales(&self) -> Scales {
-        Scales::from(self.world.network(Purpose::Training, 0).feature_scales())
+    fn scales(&self) -> FeatureScales {
+        self.world.network(Purpose::Training, 0).feature_scales()
     }
 
     /// A random number in [0, 1) that depends only on run, training day and decision.
@@ -88,7 +89,7 @@ impl PlayedDay {
 
 /// The recorded decisions of a group of days: `n_steps` of each day, day by day.
 pub(crate) struct Experience {
-    pub(crate) observations: Observations,
+    pub(crate) observations: Rows,
     pub(crate) choices: Vec<u16>,
     pub(crate) log_probabilities: Vec<f32>,
     pub(crate) values: Vec<f32>,
@@ -102,8 +103,9 @@ pub(crate) struct Experience {
 pub(crate) struct Group {
     days: Vec<PlayedDay>,
     pub(crate) experience: Experience,
+    writer: Writer,
     /// The features of the current decision of each day.
-    present: Observations,
+    present: Rows,
     workspace: Workspace,
     /// The reward of each day that has finished since the last update.
     finished: Vec<f64>,
@@ -112,7 +114,6 @@ pub(crate) struct Group {
 /// All days of a training run that are being played, and the decisions recorded since the last
 /// update.
 pub(crate) struct Buffer {
-    scales: Scales,
     settings: PpoSettings,
     pub(crate) groups: Vec<Group>,
 }
@@ -136,14 +137,14 @@ impl Buffer {
         for progress in days {
             played.push(PlayedDay::resume(source, progress)?);
         }
+        let scales = source.scales();
         let mut groups = Vec::new();
         while !played.is_empty() {
             let rest = played.split_off(played.len().min(GROUP));
-            groups.push(Group::new(played, net, settings.n_steps));
+            groups.push(Group::new(played, net, scales, settings.n_steps));
             played = rest;
         }
-        let scales = source.scales();
-        Ok(Self { scales, settings: settings.clone(), groups })
+        Ok(Self { settings: settings.clone(), groups })
     }
 
     /// Plays `n_steps` decisions of every day. Returns the rewards of the days that ended, in a
@@ -154,10 +155,10 @@ impl Buffer {
         net: &nn::NeuralNetwork,
         weights: &Weights,
     ) -> Result<Vec<f64>, Error> {
-        let Self { scales, settings, groups } = self;
+        let Self { settings, groups } = self;
         groups
             .par_iter_mut()
-            .map(|group| group.collect(source, scales, settings, net, weights))
+            .map(|group| group.collect(source, settings, net, weights))
             .collect::<Result<Vec<()>, Error>>()?;
         Ok(groups.iter().flat_map(|group| group.finished.iter().copied()).collect())
     }
@@ -176,11 +177,18 @@ impl Buffer {
 }
 
 impl Group {
-    fn new(days: Vec<PlayedDay>, net: &nn::NeuralNetwork, n_steps: usize) -> Self {
-        let shape = net.shape();
+    fn new(
+        days: Vec<PlayedDay>,
+        net: &nn::NeuralNetwork,
+        scales: FeatureScales,
+        n_steps: usize,
+    ) -> Self {
+        let present = Rows::new(net.architecture(), net.shape().vertiports);
         let rows = days.len() * n_steps;
+        let mut observations = present.clone();
+        observations.resize(rows);
         let experience = Experience {
-            observations: Observations::new(shape, rows),
+            observations,
             choices: vec![0; rows],
             log_probabilities: vec![0.0; rows],
             values: vec![0.0; rows],
@@ -189,7 +197,8 @@ impl Group {
             last_values: vec![0.0; days.len()],
         };
         Self {
-            present: Observations::new(shape, days.len()),
+            writer: net.architecture().writer(Some(scales)),
+            present,
             workspace: net.workspace(days.len()),
             finished: Vec::new(),
             experience,
@@ -200,29 +209,30 @@ impl Group {
     fn collect(
         &mut self,
         source: &Source,
-        scales: &Scales,
         settings: &PpoSettings,
         net: &nn::NeuralNetwork,
         weights: &Weights,
     ) -> Result<(), Error> {
         self.finished.clear();
         for step in 0..settings.n_steps {
-            self.observe(scales);
-            net.forward(weights, self.present.inputs(self.days.len()), &mut self.workspace);
+            self.observe();
+            net.forward(weights, self.present.inputs(), &mut self.workspace);
             for at in 0..self.days.len() {
                 self.step(at, at * settings.n_steps + step, source, settings)?;
             }
         }
-        self.observe(scales);
-        net.forward(weights, self.present.inputs(self.days.len()), &mut self.workspace);
+        self.observe();
+        net.forward(weights, self.present.inputs(), &mut self.workspace);
         self.experience.last_values.copy_from_slice(self.workspace.values());
         Ok(())
     }
 
-    fn observe(&mut self, scales: &Scales) {
-        for (row, day) in self.days.iter_mut().enumerate() {
+    fn observe(&mut self) {
+        self.present.clear();
+        for day in &mut self.days {
             let decision = day.decision();
-            self.present.write(row, &decision, &day.simulation.view(), scales);
+            let view = day.simulation.view();
+            self.present.push(|row| self.writer.write(view, &decision, None, row));
         }
     }
 
@@ -234,7 +244,7 @@ impl Group {
         source: &Source,
         settings: &PpoSettings,
     ) -> Result<(), Error> {
-        let Self { days, experience, present, workspace, finished } = self;
+        let Self { days, experience, present, workspace, finished, .. } = self;
         let day = &mut days[at];
         let decision = day.decision();
         let vertiports = day.simulation.scenario().vertiports.len();
@@ -247,7 +257,7 @@ impl Group {
         let over = day.simulation.next_decision().is_none();
         let reward = settings.reward.of(&outcome, &day.simulation, over);
 
-        experience.observations.copy_row(row, present, at);
+        experience.observations.copy(row, present, at);
         experience.choices[row] = choice.0;
         experience.log_probabilities[row] = log_probability;
         experience.values[row] = workspace.values()[at];
@@ -293,8 +303,7 @@ mod tests {
     use vertifleet_core::Network;
 
     use super::{DayInProgress, Group, PlayedDay, Source, sample};
-    use crate::features::shape;
-    use crate::nn::{Architecture, GcapsSettings, NeuralNetwork as Net};
+    use crate::nn::{Architecture, GcapsSettings};
     use crate::ppo::{PpoSettings, Reward};
 
     /// Days of `paper` on which flights and aircraft have costs of their own.
@@ -316,13 +325,12 @@ mod tests {
         (settings.n_envs, settings.n_steps) = (1, 600);
         (settings.reward, settings.reward_scale) = (reward, 1.0);
         let architecture = Architecture::Gcaps(GcapsSettings::of_sizes(16, 2));
-        let net = Net::new(architecture, shape(8)).expect("a network");
+        let net = architecture.network(8);
         let weights = net.weights(net.init(1));
         let day = DayInProgress { number: 0, choices: Vec::new() };
         let day = PlayedDay::resume(&source, day).expect("a training day");
-        let mut group = Group::new(vec![day], &net, settings.n_steps);
-        let scales = source.scales();
-        group.collect(&source, &scales, &settings, &net, &weights).expect("days are left");
+        let mut group = Group::new(vec![day], &net, source.scales(), settings.n_steps);
+        group.collect(&source, &settings, &net, &weights).expect("days are left");
         let end = group.experience.day_ends.iter().position(|&end| end).expect("the day ends");
         (group.experience.rewards, end)
     }

@@ -21,10 +21,10 @@ use rayon::prelude::{
 use vertifleet_core::Stopped;
 
 use crate::adam::{Adam, clip_norm};
-use crate::features::{Observations, shape};
 use crate::nn::{self, Gradient, Slopes, Weights, Workspace};
 use crate::ppo::buffer::Buffer;
 use crate::ppo::{PpoSettings, advantage};
+use crate::rows::Rows;
 
 /// Decisions per forward and backward pass: as many as the second-level cache holds.
 const CHUNK: usize = 128;
@@ -64,7 +64,7 @@ struct Sample {
 /// The working memory of a lane: the features of a chunk, the workspace of the network, and the
 /// lane's sum of gradients.
 struct Lane {
-    observations: Observations,
+    observations: Rows,
     workspace: Workspace,
     gradient: Gradient,
     logit_slopes: Vec<f32>,
@@ -94,7 +94,7 @@ pub(crate) struct Ppo {
 impl Ppo {
     pub(crate) fn new(net: &nn::NeuralNetwork, vertiports: usize, settings: &PpoSettings) -> Self {
         let lane = || Lane {
-            observations: Observations::new(shape(vertiports), CHUNK),
+            observations: Rows::new(net.architecture(), vertiports),
             workspace: net.workspace(CHUNK),
             gradient: net.gradient(),
             logit_slopes: vec![0.0; CHUNK * vertiports],
@@ -249,11 +249,12 @@ impl Lane {
         sample: &impl Fn(usize) -> Sample,
     ) {
         let Chunk { decisions, batch_len } = chunk;
-        for (row, &decision) in decisions.iter().enumerate() {
-            let (experience, source_row) = buffer.locate(decision);
-            self.observations.copy_row(row, &experience.observations, source_row);
+        self.observations.clear();
+        for &decision in decisions {
+            let (experience, row) = buffer.locate(decision);
+            self.observations.push_copy(&experience.observations, row);
         }
-        let inputs = self.observations.inputs(decisions.len());
+        let inputs = self.observations.inputs();
         net.forward(weights, inputs, &mut self.workspace);
 
         let vertiports = self.workspace.logits().len() / decisions.len();

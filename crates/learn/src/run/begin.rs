@@ -6,7 +6,7 @@ use std::sync::Arc;
 use vertifleet_core::{DaySeed, Purpose, Scenario, World, random_city};
 
 use crate::error::Error;
-use crate::header::{FeatureShape, Header, shape_of};
+use crate::header::{FORMAT, FeatureShape, Header};
 use crate::nn;
 use crate::run::TrainingRequest;
 
@@ -41,13 +41,25 @@ impl Begin {
                 return Err(bad("network", rule));
             }
         };
-        let shape = shape_of(&plan.policy, vertiports);
+        let shape = plan.policy.shape(vertiports);
         let net = nn::NeuralNetwork::new(plan.policy.clone(), shape)
             .map_err(|rule| bad("policy", rule))?;
         let shape = FeatureShape { vertiports: (!fits_any).then_some(vertiports), ..shape.into() };
         let scales = || plan.world.network(Purpose::Training, 0).feature_scales();
         let scales = plan.policy.learns_by_ppo().then(scales);
-        Ok(Self { net, vertiports, header: Header::of_run(plan, scales, shape) })
+        let header = Header {
+            format: FORMAT,
+            network: plan.world.name(),
+            policy: plan.policy.clone(),
+            shape,
+            feature_scales: scales,
+            settings: Some(plan.settings.clone()),
+            seed: Some(plan.seed),
+            commit: plan.commit.clone(),
+            steps: 0,
+            begun_with: plan.begun_with(),
+        };
+        Ok(Self { net, vertiports, header })
     }
 }
 

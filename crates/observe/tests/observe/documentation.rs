@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use vertifleet_observe::{Axis, PRESETS, Part, preset};
+use vertifleet_observe::{Axis, Observation, PRESETS, Part, preset};
 
 fn shape(axes: &[Axis]) -> String {
     let names = axes.iter().map(|axis| match axis {
@@ -51,4 +51,26 @@ fn the_page_has_the_table_of_all_parts() {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/src/reference/observations.md");
     let page = fs::read_to_string(page).expect("the book has the page");
     assert!(page.contains(&table()), "the page should have this table:\n\n{}", table());
+}
+
+/// The names in the first column of the table below a heading.
+fn first_column(page: &str, heading: &str) -> Vec<String> {
+    let (_, table) = page.split_once(heading).expect("a table");
+    let rows = table.lines().skip_while(|line| !line.starts_with("| `"));
+    let cells = rows
+        .take_while(|line| line.starts_with("| `"))
+        .map(|row| row.split('|').nth(1).expect("a first column").split('`').skip(1).step_by(2));
+    cells.flatten().map(str::to_owned).collect()
+}
+
+#[test]
+fn the_page_of_policies_names_every_feature_in_its_order() {
+    let page = include_str!("../../../../docs/src/concepts/policies.md");
+    let (_, of_full) = page.split_once("\n## gcaps-full\n").expect("a section");
+    for (observation, page) in [(Observation::Priced, page), (Observation::Full, of_full)] {
+        let [nodes, aircraft] = observation.names();
+        let heading = |what, count| format!("What {what} shows ({count} numbers)");
+        assert_eq!(first_column(page, &heading("a vertiport", nodes.len())), nodes);
+        assert_eq!(first_column(page, &heading("the aircraft", aircraft.len())), aircraft);
+    }
 }

@@ -6,8 +6,7 @@ use proptest::prelude::*;
 use vertifleet_core::{
     AircraftIx, DaySeed, Network, Purpose, Scenario, VertiportIx, random_network,
 };
-use vertifleet_learn::{Observations, Scales, shape};
-use vertifleet_observe::{Layout, Observer, Part, Scene, Sizes};
+use vertifleet_observe::{Layout, Observation, Observer, Part, Row, Scene, Shape, Sizes, Writer};
 use vertifleet_sim::{Decision, Simulation, View};
 
 /// All parts, as padded as `extra` says.
@@ -178,20 +177,34 @@ fn rows_say_what_the_view_says_padded_or_not() {
 }
 
 #[test]
-fn the_papers_parts_are_what_its_policies_see() {
+fn policies_see_what_the_parts_show() {
     let network = Network::shipped("paper").expect("a shipped network");
     let day = Arc::new(network.draw(DaySeed::training_number(1).expect("a number")));
-    let parts = vec![Part::Nodes, Part::Aircraft, Part::Clock];
+    let parts = vec![Part::Nodes, Part::Aircraft, Part::Clock, Part::ActionMask];
     let layout = Layout::new(parts, Sizes::of(&network));
-    let scales = Scales::from(network.feature_scales());
-    let mut seen = Observations::new(shape(8), 1);
+    let scales = Some(network.feature_scales());
+    let mut writer = Writer::new(Observation::Paper, scales, None);
+    let Shape { node_features, aircraft_features, .. } = Observation::Paper.shape(8);
+    let (mut nodes, mut aircraft) = (vec![0.0; 8 * node_features], vec![0.0; aircraft_features]);
     let mut row = vec![0.0; layout.width()];
     play(&day, |view, decision| {
         layout.write(&mut row, &Scene::of(view, decision), &mut Observer::of(&network));
-        seen.write(0, decision, &view, &scales);
-        let inputs = seen.inputs(1);
+        let (mut mask, mut clock) = (vec![0; 8], 0.0);
+        writer.write(
+            view,
+            decision,
+            None,
+            &mut Row {
+                nodes: &mut nodes,
+                aircraft: &mut aircraft,
+                mask: &mut mask,
+                edges: &mut [],
+                clock: &mut clock,
+            },
+        );
+        let mask = mask.into_iter().map(f32::from);
         let all: Vec<f32> =
-            [inputs.nodes, inputs.aircraft, inputs.clock].into_iter().flatten().copied().collect();
+            nodes.iter().chain(&aircraft).copied().chain([clock]).chain(mask).collect();
         assert_eq!(row, all);
     });
 }

@@ -3,7 +3,7 @@
 //! products of weights.
 
 use crate::nn::GcapsSettings;
-use crate::nn::architecture::Shape;
+use crate::nn::Shape;
 use crate::nn::batch::Inputs;
 use crate::nn::gcaps::{AnyEncoder, Gcaps};
 use crate::nn::layout::{Layout, Slot, Tensors};

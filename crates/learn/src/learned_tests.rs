@@ -6,14 +6,14 @@ use vertifleet_core::{DaySeed, Network, Purpose, Scenario, VertiportIx, World};
 use vertifleet_policy::{DayPrices, Policy, PricedChoice, RolloutSettings, play};
 use vertifleet_sim::{Simulation, check::check};
 
-use crate::FullPolicy;
-use crate::full::features::{
-    AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, NODE_FEATURE_NAMES, NODE_FEATURES, Writer,
-};
-use crate::gcaps_x::features::Scene;
-use crate::gcaps_x::{first_column, played, with_opinions};
+use vertifleet_observe::PricedDecision;
+
+use crate::Learned;
+use crate::gcaps_x_tests::{played, with_opinions};
 use crate::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings, Inputs};
 use crate::rollouts::RolloutPlayer;
+use crate::rows::Rows;
+use crate::scorer::Scorer;
 
 fn small(adjacency: Adjacency) -> Architecture {
     let graph = GraphSettings { adjacency, ..GraphSettings::default() };
@@ -21,9 +21,9 @@ fn small(adjacency: Adjacency) -> Architecture {
 }
 
 /// The same policy twice, with opinions of its own.
-fn twice(policy: &Architecture) -> [FullPolicy; 2] {
+fn twice(policy: &Architecture) -> [Learned; 2] {
     let weights = with_opinions(policy, 1);
-    [(); 2].map(|()| FullPolicy::of(policy.clone(), Arc::clone(&weights)))
+    [(); 2].map(|()| Learned(Scorer::new(policy, None, Arc::clone(&weights))))
 }
 
 /// Days of shipped networks, one of them disturbed, and of random ones.
@@ -40,7 +40,7 @@ fn days() -> Vec<Arc<Scenario>> {
 fn any_weights_keep_every_rule_on_networks_of_any_size() {
     for policy in [small(Adjacency::Complete), small(Adjacency::Profit)] {
         let weights = with_opinions(&policy, 1);
-        let mut policy = FullPolicy::of(policy, weights);
+        let mut policy = Learned(Scorer::new(&policy, None, weights));
         for day in days() {
             let report = check(&day, &played(&day, &mut policy));
             assert!(report.is_valid(), "{report}");
@@ -75,12 +75,13 @@ fn a_batch_of_days_of_all_sizes_is_answered_as_each_alone() {
 fn features_are_bounded_and_choices_are_feasible_on_every_network() {
     for day in days() {
         let mut simulation = Simulation::new(Arc::clone(&day));
-        let mut writer = Writer::of(&small(Adjacency::Profit));
-        let mut rows = writer.rows(day.vertiports.len());
+        let policy = small(Adjacency::Profit);
+        let mut writer = policy.writer(None);
+        let mut rows = Rows::new(&policy, day.vertiports.len());
         while let Some(decision) = simulation.next_decision() {
             let view = simulation.view();
             rows.clear();
-            writer.push(view, &decision, &mut rows);
+            rows.push(|row| writer.write(view, &decision, None, row));
             let inputs = rows.inputs();
             let numbers = inputs.nodes.iter().chain(inputs.aircraft);
             let numbers = numbers.chain(inputs.edges);
@@ -100,36 +101,26 @@ fn features_are_bounded_and_choices_are_feasible_on_every_network() {
 
 #[test]
 fn what_is_remembered_is_what_is_seen_anew() {
-    let mut remembering = Writer::of(&small(Adjacency::Profit));
+    let policy = small(Adjacency::Profit);
+    let mut remembering = policy.writer(None);
     let mut days: Vec<Simulation> = days().into_iter().map(Simulation::new).collect();
     for number in 0..400 {
         // By turns, as in a batch, and with a different choice each time.
         for simulation in &mut days {
             let Some(decision) = simulation.next_decision() else { continue };
             let view = simulation.view();
-            let [kept, fresh] =
-                [&mut remembering, &mut Writer::of(&small(Adjacency::Profit))].map(|writer| {
-                    let mut rows = writer.rows(view.vertiports());
-                    writer.push(view, &decision, &mut rows);
-                    let Inputs { nodes, aircraft, edges, .. } = rows.inputs();
-                    [nodes, aircraft, edges].concat()
-                });
+            let [kept, fresh] = [&mut remembering, &mut policy.writer(None)].map(|writer| {
+                let mut rows = Rows::new(&policy, view.vertiports());
+                rows.push(|row| writer.write(view, &decision, None, row));
+                let Inputs { nodes, aircraft, edges, .. } = rows.inputs();
+                [nodes, aircraft, edges].concat()
+            });
             assert!(kept == fresh, "decision {number}");
             let feasible = view.feasible(&decision);
             let choice = feasible.nth(number % feasible.len()).expect("a rank within the mask");
             simulation.apply(choice).expect("it is feasible");
         }
     }
-}
-
-#[test]
-fn the_page_names_every_feature_in_its_order() {
-    let page = include_str!("../../../../docs/src/concepts/policies.md");
-    let (_, page) = page.split_once("\n## gcaps-full\n").expect("a section");
-    let nodes = format!("What a vertiport shows ({NODE_FEATURES} numbers)");
-    assert_eq!(first_column(page, &nodes), NODE_FEATURE_NAMES);
-    let aircraft = format!("What the aircraft shows ({AIRCRAFT_FEATURES} numbers):");
-    assert_eq!(first_column(page, &aircraft), AIRCRAFT_FEATURE_NAMES);
 }
 
 #[test]
@@ -147,13 +138,13 @@ fn a_choice_that_is_rolled_out_to_the_end_is_worth_what_the_day_then_earns() {
         if number % 30 == 7 {
             let view = simulation.view();
             let prices = DayPrices::of(view, decision.time);
-            let scene = Scene::of(view, &decision, &prices);
+            let scene = PricedDecision::of(view, &decision, &prices);
             let listed: Vec<PricedChoice> = view
                 .feasible(&decision)
                 .iter()
                 .map(|to| PricedChoice { worth_usd: 0.0, to })
                 .collect();
-            let values_usd = player.values_usd(&mut rolled_out, &settings, scene, &listed);
+            let values_usd = player.values_usd(&mut rolled_out.0, &settings, scene, &listed);
             for (choice, &value_usd) in listed.iter().zip(values_usd) {
                 let mut then = simulation.clone();
                 then.apply(choice.to).expect("it is feasible");

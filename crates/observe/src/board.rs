@@ -13,7 +13,7 @@ use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_policy::units_usd;
 use vertifleet_sim::{DayKey, View};
 
-use crate::full::features::hours;
+use crate::column::hours;
 
 /// Demand periods that are kept; a later one takes the place of the one that lies so many before
 /// it.
@@ -23,15 +23,14 @@ const MOST_VERTIPORTS: usize = 2_048;
 
 /// The boards of the days that were looked at lately.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Boards {
+pub(crate) struct Boards {
     days: Vec<(DayKey, Board)>,
     vertiports: usize,
-    latest: usize,
 }
 
 /// The flights of a day.
 #[derive(Debug, Clone)]
-pub(super) struct Board {
+pub(crate) struct Board {
     vertiports: usize,
     /// The profit of a typical full flight, dollars, by type.
     units_usd: Vec<f64>,
@@ -52,18 +51,18 @@ struct Known {
 
 /// What can be flown from a vertiport at a time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Onward {
+pub(crate) struct Onward {
     /// The highest profits per hour of a flight, in units.
-    pub(super) best: [f64; 3],
+    pub(crate) best: [f64; 3],
     /// The passengers of the destinations that pay, in full flights, and the profit of these
     /// flights in units.
-    pub(super) flights: f64,
-    pub(super) profit: f64,
+    pub(crate) flights: f64,
+    pub(crate) profit: f64,
 }
 
 impl Boards {
     /// The board of a day.
-    pub(super) fn of(&mut self, view: View<'_>) -> &mut Board {
+    pub(crate) fn of(&mut self, view: View<'_>) -> &mut Board {
         let day = view.day();
         let known = self.days.iter().position(|(known, _)| *known == day);
         let at = known.unwrap_or_else(|| {
@@ -74,13 +73,7 @@ impl Boards {
             self.days.push((day, Board::of(view)));
             self.days.len() - 1
         });
-        self.latest = at;
         &mut self.days[at].1
-    }
-
-    /// The board that was asked for last.
-    pub(super) fn latest(&self) -> &Board {
-        &self.days[self.latest].1
     }
 }
 
@@ -99,12 +92,12 @@ impl Board {
     }
 
     /// The profit of a typical full flight of a type, dollars.
-    pub(super) fn unit_usd(&self, kind: TypeIx) -> f64 {
+    pub(crate) fn unit_usd(&self, kind: TypeIx) -> f64 {
         self.units_usd[kind.at()]
     }
 
     /// What can be flown from a vertiport at a time of the day.
-    pub(super) fn onward(
+    pub(crate) fn onward(
         &mut self,
         view: View<'_>,
         kind: TypeIx,
@@ -121,7 +114,7 @@ impl Board {
     /// Profit per hour of a flight from a vertiport to each, in units, between 0 and 3, and 0 out
     /// of range, as they were when the vertiport and the type were last looked at for a demand
     /// period.
-    pub(super) fn rates(&self, kind: TypeIx, from: VertiportIx, period: usize) -> &[f32] {
+    pub(crate) fn rates(&self, kind: TypeIx, from: VertiportIx, period: usize) -> &[f32] {
         &self.rates[self.row(kind, from, period) * self.vertiports..][..self.vertiports]
     }
 
@@ -130,7 +123,7 @@ impl Board {
     }
 
     /// Makes the row of a vertiport's flights true, and says which it is.
-    pub(super) fn look(
+    pub(crate) fn look(
         &mut self,
         view: View<'_>,
         kind: TypeIx,

@@ -6,17 +6,19 @@ use vertifleet_core::{DaySeed, Matrix, Network, Purpose, Scenario, VertiportIx, 
 use vertifleet_policy::{BidPricePolicy, DayPrices, Policy, Shortlist, play};
 use vertifleet_sim::{Simulation, Trace, check::check};
 
+use vertifleet_observe::PricedDecision;
+
 use crate::GcapsX;
-use crate::gcaps_x::features::{
-    AIRCRAFT_FEATURE_NAMES, AIRCRAFT_FEATURES, NODE_FEATURE_NAMES, NODE_FEATURES, Scene, Writer,
-    shape,
-};
-use crate::header::network;
-use crate::nn::{Architecture, GcapsSettings, Inputs, Weights};
+use crate::nn::{Architecture, GcapsSettings, Inputs, Shape, Weights};
 use crate::rows::Rows;
+use crate::scorer::Scorer;
 
 fn small() -> Architecture {
     Architecture::GcapsX(GcapsSettings::of_sizes(8, 2))
+}
+
+fn policy(weights: Arc<Weights>, most_rolled_out: usize) -> GcapsX {
+    GcapsX::of(Scorer::new(&small(), None, weights), most_rolled_out)
 }
 
 fn opinionated(seed: u64) -> Arc<Weights> {
@@ -25,7 +27,7 @@ fn opinionated(seed: u64) -> Arc<Weights> {
 
 /// First weights with a last layer that is made large enough to change choices.
 pub(crate) fn with_opinions(policy: &Architecture, seed: u64) -> Arc<Weights> {
-    let net = network(policy, 2);
+    let net = policy.network(2);
     let mut params = net.init(seed);
     let pointer = net.layout().tensors().iter().find(|one| one.name == "decoder.pointer.weight");
     let pointer = pointer.expect("a network with a pointer");
@@ -58,9 +60,9 @@ pub(crate) fn played(day: &Arc<Scenario>, policy: &mut dyn Policy) -> Trace {
 
 #[test]
 fn weights_of_zeros_decide_as_prices_do() {
-    let net = network(&small(), 2);
+    let net = small().network(2);
     let zeros = Arc::new(net.weights(vec![0.0; net.layout().len()]));
-    let mut policy = GcapsX::of(small(), zeros, 1);
+    let mut policy = policy(zeros, 1);
     for day in days() {
         assert_eq!(played(&day, &mut policy), played(&day, &mut BidPricePolicy::default()));
     }
@@ -78,7 +80,7 @@ fn the_less_is_at_stake_the_less_weights_add() {
         let decision = simulation.next_decision().expect("a decision");
         let view = simulation.view();
         let prices = DayPrices::of(view, decision.time);
-        let scene = Scene::of(view, &decision, &prices);
+        let scene = PricedDecision::of(view, &decision, &prices);
         (scene.addition_usd(), scene.unit_usd)
     };
     let (full_usd, unit_usd) = addition_usd(1);
@@ -92,7 +94,7 @@ fn the_less_is_at_stake_the_less_weights_add() {
 fn any_weights_keep_every_rule_on_networks_of_any_size() {
     let weights = opinionated(1);
     for day in days() {
-        let trace = played(&day, &mut GcapsX::of(small(), Arc::clone(&weights), 1));
+        let trace = played(&day, &mut policy(Arc::clone(&weights), 1));
         let report = check(&day, &trace);
         assert!(report.is_valid(), "{report}");
         assert_ne!(trace, played(&day, &mut BidPricePolicy::default()), "the weights have a say");
@@ -102,7 +104,7 @@ fn any_weights_keep_every_rule_on_networks_of_any_size() {
 #[test]
 fn roll_outs_keep_every_rule_and_have_one_outcome() {
     let paper = &days()[0];
-    let mut policy = GcapsX::of(small(), opinionated(2), 3);
+    let mut policy = policy(opinionated(2), 3);
     let trace = played(paper, &mut policy);
     let report = check(paper, &trace);
     assert!(report.is_valid(), "{report}");
@@ -112,15 +114,16 @@ fn roll_outs_keep_every_rule_and_have_one_outcome() {
 #[test]
 fn vertiports_in_another_order_get_their_logits_in_that_order() {
     let count = 7;
-    let net = network(&small(), count);
+    let net = small().network(count);
+    let Shape { node_features, aircraft_features, .. } = net.shape();
     let weights = opinionated(3);
     let number = |at: usize| ((at * 7919) % 1000) as f32 / 500.0 - 1.0;
-    let nodes: Vec<f32> = (0..count * NODE_FEATURES).map(number).collect();
-    let aircraft: Vec<f32> = (0..AIRCRAFT_FEATURES).map(number).collect();
+    let nodes: Vec<f32> = (0..count * node_features).map(number).collect();
+    let aircraft: Vec<f32> = (0..aircraft_features).map(number).collect();
     let order = [3, 0, 6, 2, 5, 1, 4];
     let moved: Vec<f32> = order
         .iter()
-        .flat_map(|at| &nodes[at * NODE_FEATURES..][..NODE_FEATURES])
+        .flat_map(|at| &nodes[at * node_features..][..node_features])
         .copied()
         .collect();
     let logits = |nodes: &[f32]| {
@@ -142,36 +145,18 @@ fn vertiports_in_another_order_get_their_logits_in_that_order() {
     }
 }
 
-/// The names in the first column of the table that follows a heading.
-/// The names in the first column of the table below a heading.
-pub(crate) fn first_column(page: &str, heading: &str) -> Vec<String> {
-    let (_, table) = page.split_once(heading).expect("a table");
-    let rows = table.lines().skip_while(|line| !line.starts_with("| `"));
-    let cells = rows
-        .take_while(|line| line.starts_with("| `"))
-        .map(|row| row.split('|').nth(1).expect("a first column").split('`').skip(1).step_by(2));
-    cells.flatten().map(str::to_owned).collect()
-}
-
-#[test]
-fn the_page_names_every_feature_in_its_order() {
-    let page = include_str!("../../../../docs/src/concepts/policies.md");
-    assert_eq!(first_column(page, "What a vertiport shows (24 numbers):"), NODE_FEATURE_NAMES);
-    assert_eq!(first_column(page, "What the aircraft shows (10 numbers):"), AIRCRAFT_FEATURE_NAMES);
-}
-
 #[test]
 fn features_are_bounded_on_every_network() {
     for day in days() {
         let mut simulation = Simulation::new(Arc::clone(&day));
-        let mut rows = Rows::new(shape(day.vertiports.len()), false);
-        let mut writer = Writer::default();
+        let mut rows = Rows::new(&small(), day.vertiports.len());
+        let mut writer = small().writer(None);
         let (mut shortlist, mut prices) = (Shortlist::default(), None);
         while let Some(decision) = simulation.next_decision() {
             let view = simulation.view();
             let prices = prices.get_or_insert_with(|| DayPrices::of(view, decision.time));
             let listed = shortlist.rank(prices, view, &decision);
-            writer.push(Scene::of(view, &decision, prices), listed, &mut rows);
+            rows.push(|row| writer.write(view, &decision, Some((prices, listed)), row));
             let choice: VertiportIx = listed[0].to;
             simulation.apply(choice).expect("a choice from the mask");
         }
