@@ -8,7 +8,7 @@ use pyo3::types::{PyDict, PyMapping};
 use serde_json::{Map, Value};
 use vertifleet_core::{Outputs, Stop, World};
 use vertifleet_learn::{
-    Curve, Error, RunFolder, TrainingRequest, TrainingRun, TrainingSettings, TrainingWatch,
+    Cell, Curve, Error, RunFolder, TrainingRequest, TrainingRun, TrainingSettings, TrainingWatch,
 };
 use vertifleet_progress::Bar;
 
@@ -47,15 +47,14 @@ impl Training {
     /// measured.
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let rows = rows(&self.curve);
         let columns = Columns::new(py);
-        for name in rows.first().into_iter().flat_map(Map::keys) {
-            let values = || rows.iter().map(|row| &row[name]);
-            if values().all(Value::is_u64) {
-                columns.counts(name, values().filter_map(Value::as_u64))?;
+        for (at, name) in self.curve.columns().iter().enumerate() {
+            let cells = || self.curve.rows().iter().map(|row| row[at]);
+            let count = |cell| if let Cell::Count(count) = cell { Some(count) } else { None };
+            if cells().all(|cell| count(cell).is_some()) {
+                columns.counts(name, cells().filter_map(count))?;
             } else {
-                let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
-                columns.numbers(name, values().map(number))?;
+                columns.numbers(name, cells().map(|cell| cell.number().unwrap_or(f64::NAN)))?;
             }
         }
         Ok(columns.into_dict())
@@ -78,14 +77,11 @@ impl Training {
     }
 }
 
-/// The rows of a curve, each as a map from column names to values.
-fn rows(curve: &Curve) -> Vec<Map<String, Value>> {
-    let rows = match curve {
-        Curve::Ppo(rows) => serde_json::to_value(rows),
-        Curve::Imitation(rows) => serde_json::to_value(rows),
-        Curve::Evolution(rows) => serde_json::to_value(rows),
-    };
-    serde_json::from_value(rows.expect("rows are plain data")).expect("rows have columns")
+/// The last row of a curve, as a map from column names to values.
+fn last_row(curve: &Curve) -> Option<Map<String, Value>> {
+    let cells = curve.rows().last()?.iter().map(serde_json::to_value);
+    let cells = cells.map(|cell| cell.expect("a number"));
+    Some(curve.columns().iter().cloned().zip(cells).collect())
 }
 
 /// A network, or the name of networks that are drawn, a new one for each day.
@@ -191,7 +187,7 @@ impl TrainingWatch for Shown {
 
     fn has_learned(&self, curve: &Curve, steps_per_second: f64) {
         self.bar.say(format!("{steps_per_second:.0} decisions/s"));
-        let (Some(watch), Some(row)) = (&self.watch, rows(curve).pop()) else { return };
+        let (Some(watch), Some(row)) = (&self.watch, last_row(curve)) else { return };
         let called = Python::attach(|py| watch.call1(py, (plain(py, &row)?,)).map(|_| ()));
         if let Err(error) = called {
             self.calls.raise(error);

@@ -12,5 +12,4 @@ mod run;
 mod settings;
 
 pub use row::EvolutionRow;
-pub(crate) use run::EvolutionRun;
 pub use settings::EvolutionSettings;

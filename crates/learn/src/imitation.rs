@@ -10,5 +10,4 @@ mod teacher;
 mod update;
 
 pub use row::ImitationRow;
-pub(crate) use run::ImitationRun;
 pub use settings::ImitationSettings;

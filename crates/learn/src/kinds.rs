@@ -3,8 +3,6 @@
 
 use vertifleet_core::OutputKind;
 
-use crate::settings::TrainingSettings;
-
 /// The beginning of a safetensors file whose header starts with a format of this name, in any
 /// version. It is a macro because the text is put together at compile time.
 macro_rules! opening {
@@ -22,21 +20,9 @@ const fn tensors(name: &'static str, opening: &'static str) -> OutputKind {
 pub const WEIGHTS: OutputKind = tensors("weight file", opening!("vertifleet-weights"));
 /// The file from which a run is resumed.
 pub(crate) const CHECKPOINT: OutputKind = tensors("checkpoint", opening!("vertifleet-checkpoint"));
-/// The learning curves, of a run by PPO, by imitation and by evolution.
-const PPO_CURVE: OutputKind =
-    OutputKind { name: "learning curve", skipped: 0, opening: "update,steps,days,mean_reward," };
-const IMITATION_CURVE: OutputKind =
-    OutputKind { name: "learning curve", skipped: 0, opening: "round,decisions,agreement,lift," };
-const EVOLUTION_CURVE: OutputKind =
-    OutputKind { name: "learning curve", skipped: 0, opening: "generation,decisions,difference," };
-
-/// The kind of learning curve that a run with these settings writes.
-pub(crate) fn curve(settings: &TrainingSettings) -> &'static OutputKind {
-    match settings {
-        TrainingSettings::Ppo(_) => &PPO_CURVE,
-        TrainingSettings::Imitation(_) => &IMITATION_CURVE,
-        TrainingSettings::Evolution(_) => &EVOLUTION_CURVE,
-    }
+/// A learning curve that begins with these columns.
+pub(crate) const fn curve(opening: &'static str) -> OutputKind {
+    OutputKind { name: "learning curve", skipped: 0, opening }
 }
 
 #[cfg(test)]
@@ -45,24 +31,33 @@ mod tests {
 
     use vertifleet_core::OutputKind;
 
-    use super::{CHECKPOINT, EVOLUTION_CURVE, IMITATION_CURVE, PPO_CURVE, WEIGHTS};
+    use super::{CHECKPOINT, WEIGHTS, curve};
+    use crate::settings::Learner;
+    use crate::{EvolutionSettings, ImitationSettings, PpoSettings};
+
+    /// The learning curves of PPO, imitation and evolution.
+    fn curves() -> [OutputKind; 3] {
+        let (imitation, evolution) = (ImitationSettings::default(), EvolutionSettings::default());
+        let ways: [&dyn Learner; 3] = [&PpoSettings::tuned(), &imitation, &evolution];
+        ways.map(|way| curve(way.curve_opening()))
+    }
 
     /// The kinds of output that a file of the repository is recognised as.
     fn kinds(file: &str) -> Vec<OutputKind> {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
         let is_of = |kind: &OutputKind| kind.is_of(&path).expect("a file of the project");
-        let kinds = [WEIGHTS, CHECKPOINT, PPO_CURVE, IMITATION_CURVE, EVOLUTION_CURVE];
-        kinds.into_iter().filter(is_of).collect()
+        [WEIGHTS, CHECKPOINT].into_iter().chain(curves()).filter(is_of).collect()
     }
 
     #[test]
     fn files_of_runs_are_recognised_by_their_beginning() {
+        let [of_ppo, of_imitation, of_evolution] = curves();
         for (file, kind) in [
             ("../../models/paper/gcaps.safetensors", WEIGHTS),
-            ("../../models/paper/mlp-curve.csv", PPO_CURVE),
+            ("../../models/paper/mlp-curve.csv", of_ppo),
             ("../../models/any/gcaps-x.safetensors", WEIGHTS),
-            ("../../models/any/gcaps-x-seed-2-curve.csv", IMITATION_CURVE),
-            ("../../models/any/gcaps-full-curve.csv", EVOLUTION_CURVE),
+            ("../../models/any/gcaps-x-seed-2-curve.csv", of_imitation),
+            ("../../models/any/gcaps-full-curve.csv", of_evolution),
         ] {
             assert_eq!(kinds(file), [kind], "{file}");
         }

@@ -83,7 +83,7 @@ pub use imitation::{ImitationRow, ImitationSettings};
 pub use learned::Learned;
 pub use model::Model;
 pub use ppo::{LearningRateSchedule, PpoRow, PpoSettings, Reward};
-pub use run::{Curve, RunFolder, TrainingRequest, TrainingRun, TrainingWatch, Work, sizes};
+pub use run::{Cell, Curve, RunFolder, TrainingRequest, TrainingRun, TrainingWatch, Work, sizes};
 pub use settings::{TrainingSettings, set};
 pub use shipped::{Shipped, shipped};
 pub use vertifleet_observe::Observation;

@@ -25,6 +25,7 @@ mod value_head;
 pub use architecture::{
     Adjacency, Architecture, EncoderKind, GcapsSettings, GraphSettings, Laplacian, MlpSettings,
 };
+pub(crate) use batch::maximum;
 pub use batch::{Inputs, Slopes};
 pub use layout::{Layout, Tensor};
 pub use network::{Gradient, NeuralNetwork, Weights, Workspace};

@@ -8,5 +8,4 @@ mod settings;
 mod update;
 
 pub use row::PpoRow;
-pub(crate) use run::PpoRun;
 pub use settings::{LearningRateSchedule, PpoSettings, Reward};

@@ -19,15 +19,12 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{DaySeed, Purpose, Stop, World};
 
-pub use curve::Curve;
+pub use curve::{Cell, Curve};
 pub use folder::{RunFolder, TrainingWatch};
 
 use crate::error::Error;
-use crate::evolution::EvolutionRun;
-use crate::imitation::ImitationRun;
 use crate::model::Model;
 use crate::nn::{Architecture, NeuralNetwork};
-use crate::ppo::PpoRun;
 use crate::settings::TrainingSettings;
 
 /// What a training run is asked to do.
@@ -130,21 +127,7 @@ impl TrainingRequest {
             begun_with: self.begun_with(),
         };
         self.check_begin()?;
-        Ok(match &self.settings {
-            TrainingSettings::Imitation(settings) => {
-                Box::new(ImitationRun::new(&self, asked, settings.clone(), checkpoint)?)
-            }
-            TrainingSettings::Ppo(settings) if self.policy.learns_by_ppo() => {
-                Box::new(PpoRun::new(&self, asked, settings.clone(), checkpoint)?)
-            }
-            TrainingSettings::Evolution(settings) => {
-                Box::new(EvolutionRun::new(&self, asked, *settings, checkpoint)?)
-            }
-            TrainingSettings::Ppo(_) => {
-                let rule = format!("{} does not learn by PPO", self.policy.name());
-                return Err(Error::BadSetting { name: "policy".to_owned(), rule });
-            }
-        })
+        self.settings.learner().begin(&self, asked, checkpoint)
     }
 
     /// Refuses weights to begin with that are of another policy, or that see other numbers than

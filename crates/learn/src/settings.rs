@@ -1,5 +1,7 @@
 //! The settings of a training run, which are those of one of the three ways to learn.
 
+use std::path::Path;
+
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -9,6 +11,7 @@ use crate::evolution::EvolutionSettings;
 use crate::imitation::ImitationSettings;
 use crate::nn::Architecture;
 use crate::ppo::PpoSettings;
+use crate::run::{RunIdentity, TrainingRequest, TrainingRun};
 
 /// The settings of a training run: those of PPO, which `gcaps` and `mlp` can learn by, or those of
 /// imitation or of evolution, which every policy can learn by.
@@ -101,6 +104,35 @@ impl TrainingSettings {
             Self::Evolution(settings) => settings.check(),
         }
     }
+
+    /// The way to learn.
+    pub(crate) fn learner(&self) -> &dyn Learner {
+        match self {
+            Self::Ppo(settings) => settings,
+            Self::Imitation(settings) => settings,
+            Self::Evolution(settings) => settings,
+        }
+    }
+
+    /// Whether there is a setting of this name.
+    pub fn has(&self, name: &str) -> bool {
+        members(self).contains_key(name)
+    }
+}
+
+/// A way to learn. Its settings begin a [`TrainingRun`], which makes steps and has a curve with a row
+/// for each. A new way is a folder like `ppo/` and a variant of [`TrainingSettings`].
+pub(crate) trait Learner {
+    /// The first columns of its learning curve, by which the file is recognised.
+    fn curve_opening(&self) -> &'static str;
+
+    /// A run before its first step, or one that is resumed from a checkpoint.
+    fn begin(
+        &self,
+        plan: &TrainingRequest,
+        identity: RunIdentity,
+        from: Option<&Path>,
+    ) -> Result<Box<dyn TrainingRun>, Error>;
 }
 
 /// Changes the sizes of a policy and the settings of its training by name, as `--set name=value`

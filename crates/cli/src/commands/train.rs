@@ -46,7 +46,7 @@ fn plan(
     let mut policy = vertifleet_learn::sizes(arguments.policy.name(), begin_with.as_ref())
         .expect("every kind that can be trained has its sizes");
     let mut settings = TrainingSettings::preset(&policy, &arguments.preset)?;
-    if arguments.steps.is_some() && !matches!(settings, TrainingSettings::Ppo(_)) {
+    if arguments.steps.is_some() && !settings.has("total_steps") {
         return Err(Failure::usage(
             "--steps is for PPO; imitation learns in rounds, and evolution in generations"
                 .to_owned(),
@@ -85,22 +85,13 @@ impl TrainingWatch for Shown {
     }
 
     fn has_learned(&self, curve: &Curve, steps_per_second: f64) {
-        self.0.say(match curve {
-            Curve::Ppo(rows) => {
-                let reward = reward_text(rows.last().and_then(|row| row.mean_reward));
-                format!("{steps_per_second:.0} steps/s, reward {reward}")
+        let shown = SHOWN.iter().find_map(|column| Some((column, column.last(curve)?)));
+        let speed = format!("{steps_per_second:.0} decisions/s");
+        self.0.say(match shown {
+            Some((column, number)) => {
+                format!("{speed}, {} {}", column.label.trim(), (column.text)(number))
             }
-            Curve::Imitation(rows) => {
-                let gain = rows.last().map_or(0.0, |row| row.gain);
-                format!("gain over prices {:.2} %", 100.0 * gain)
-            }
-            Curve::Evolution(rows) => {
-                let measured = rows.iter().rev().find_map(|row| row.gain);
-                measured.map_or_else(
-                    || format!("{steps_per_second:.0} decisions/s"),
-                    |gain| format!("gain over prices {:.2} %", 100.0 * gain),
-                )
-            }
+            None => speed,
         });
     }
 
@@ -111,45 +102,19 @@ impl TrainingWatch for Shown {
 
 /// Prints the results of the run as they stand in its files.
 fn print_summary(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failure> {
-    let curve = run.curve();
-    let mut rewards = curve.validation_rewards().into_iter().map(|(_, reward)| reward);
+    let (curve, kept) = (run.curve(), run.model().header().steps);
+    let mut lines = vec![format!("{:<18} {}", "steps", curve.steps())];
+    let measured = SHOWN.iter().filter_map(|column| Some((column, column.last(&curve)?)));
+    lines.extend(
+        measured.map(|(column, number)| format!("{:<18} {}", column.label, (column.text)(number))),
+    );
     // The validation reward of the weights that were kept.
-    let kept = match &curve {
-        Curve::Ppo(_) | Curve::Evolution(_) => rewards.reduce(f64::max),
-        Curve::Imitation(_) => rewards.next_back(),
-    };
-    let mut lines = vec![format!("steps              {}", curve.steps())];
-    match &curve {
-        Curve::Ppo(rows) => {
-            let mean = rows.last().and_then(|row| row.mean_reward);
-            lines.push(format!("mean reward        {}", reward_text(mean)));
-        }
-        Curve::Imitation(rows) => {
-            if let Some(row) = rows.last() {
-                lines.push(format!("gain over prices   {:.2} %", 100.0 * row.gain));
-                let random = row.random_gain.map(|gain| 100.0 * gain);
-                lines.extend(random.map(|gain| format!("  random networks  {gain:.2} %")));
-            }
-        }
-        Curve::Evolution(rows) => {
-            let gain = |gain: Option<f64>| {
-                gain.map_or_else(
-                    || "not known yet".to_owned(),
-                    |gain| format!("{:.2} %", 100.0 * gain),
-                )
-            };
-            let last = rows.iter().rev().find(|row| row.gain.is_some());
-            lines.push(format!(
-                "gain over prices   {} (last measured)",
-                gain(last.and_then(|row| row.gain))
-            ));
-            if let Some(random) = last.and_then(|row| row.random_gain) {
-                lines.push(format!("  random networks  {}", gain(Some(random))));
-            }
-        }
-    }
+    let rewards = curve.validation_rewards();
+    let reward = rewards.iter().find(|&&(steps, _)| steps == kept);
+    let reward =
+        reward.map_or_else(|| "not known yet".to_owned(), |&(_, reward)| reward_text(reward));
     lines.extend([
-        format!("validation reward  {}", reward_text(kept)),
+        format!("validation reward  {reward}"),
         format!("weights            {}", folder.weights.display()),
         format!("learning curve     {}", folder.curve.display()),
     ]);
@@ -161,7 +126,31 @@ fn print_summary(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failur
     Ok(())
 }
 
-/// A reward, or words for one that is not known yet.
-fn reward_text(reward: Option<f64>) -> String {
-    reward.map_or_else(|| "not known yet".to_owned(), |reward| format!("{reward:.5}"))
+/// A column of learning curves that is shown to people.
+struct ShownColumn {
+    name: &'static str,
+    label: &'static str,
+    text: fn(f64) -> String,
+}
+
+/// The columns that are shown, if a curve has them.
+const SHOWN: [ShownColumn; 3] = [
+    ShownColumn { name: "mean_reward", label: "mean reward", text: reward_text },
+    ShownColumn { name: "gain", label: "gain over prices", text: share_text },
+    ShownColumn { name: "random_gain", label: "  random networks", text: share_text },
+];
+
+impl ShownColumn {
+    /// The number that was measured last.
+    fn last(&self, curve: &Curve) -> Option<f64> {
+        curve.measured(self.name).last().map(|&(_, number)| number)
+    }
+}
+
+fn reward_text(reward: f64) -> String {
+    format!("{reward:.5}")
+}
+
+fn share_text(share: f64) -> String {
+    format!("{:.2} %", 100.0 * share)
 }

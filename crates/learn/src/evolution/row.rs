@@ -22,16 +22,3 @@ pub struct EvolutionRow {
     /// size.
     pub random_gain: Option<f64>,
 }
-
-impl EvolutionRow {
-    /// What was measured, under the names that TensorBoard shows.
-    pub(crate) fn scalars(&self) -> Vec<(&'static str, f64)> {
-        let scalars = [
-            ("train/difference", Some(self.difference)),
-            ("eval/mean_reward", self.validation_reward),
-            ("eval/gain", self.gain),
-            ("eval/random_gain", self.random_gain),
-        ];
-        scalars.into_iter().filter_map(|(tag, value)| Some((tag, value?))).collect()
-    }
-}

@@ -21,6 +21,7 @@ use crate::model::Model;
 use crate::run::begin::{Begin, training_days};
 use crate::run::checkpoint::{self, BEST_PARAMS};
 use crate::run::{Curve, RunIdentity, TrainingRequest, TrainingRun, Work, check_finite};
+use crate::settings::Learner;
 use crate::validation::{Validated, ValidationDays, played};
 
 /// A run in progress.
@@ -56,42 +57,55 @@ struct DirectionScore {
     decisions: u64,
 }
 
-impl EvolutionRun {
-    /// A run before its first generation, or one that is resumed from a checkpoint.
-    pub(crate) fn new(
+impl Learner for EvolutionSettings {
+    fn curve_opening(&self) -> &'static str {
+        "generation,decisions,difference,"
+    }
+
+    fn begin(
+        &self,
         plan: &TrainingRequest,
         identity: RunIdentity,
-        settings: EvolutionSettings,
         from: Option<&Path>,
-    ) -> Result<Self, Error> {
-        let Begin { net, header, .. } = Begin::of(plan, settings.random_share)?;
-        let (params, adam, progress) = if let Some(path) = from {
-            read_checkpoint(path, &identity, &settings, net.layout().len())?
-        } else {
-            let params = plan.first_params(&net);
-            let progress = Progress {
-                curve: Vec::new(),
-                best_gain: f64::NEG_INFINITY,
-                best_decisions: 0,
-                best_params: params.clone(),
-            };
-            let adam = Adam::new(params.len());
-            (params, adam, progress)
+    ) -> Result<Box<dyn TrainingRun>, Error> {
+        let Begin { header, params, adam, checkpoint, .. } =
+            Begin::of(plan, &identity, self.random_share, from)?;
+        let mut progress = Progress {
+            curve: Vec::new(),
+            best_gain: f64::NEG_INFINITY,
+            best_decisions: 0,
+            best_params: params.clone(),
         };
-        let is_done = progress.curve.len() >= settings.generations as usize;
+        if let Some(checkpoint) = checkpoint {
+            let best_params = checkpoint.best_params()?;
+            progress = Progress { best_params, ..checkpoint.progress };
+        }
+        let numbers = progress.curve.iter().map(|row| row.generation);
+        checkpoint::check_steps("generations", numbers, self.generations)?;
+        let is_done = progress.curve.len() >= self.generations as usize;
         // A run that is done measures nothing more, and what `prices` earns there takes its time.
-        let days = if is_done { 0 } else { settings.validation_days };
+        let days = if is_done { 0 } else { self.validation_days };
         let validation = ValidationDays::of(&plan.world, days, plan.policy.fits_any_size())?;
         let world = plan.world.clone();
-        let mut run =
-            Self { identity, settings, header, world, validation, params, adam, progress };
+        let mut run = EvolutionRun {
+            identity,
+            settings: *self,
+            header,
+            world,
+            validation,
+            params,
+            adam,
+            progress,
+        };
         if from.is_none() {
             // Weights that a run begins with are kept until others are better.
             run.progress.best_gain = mean_gain(run.validation.measure(&run.model()));
         }
-        Ok(run)
+        Ok(Box::new(run))
     }
+}
 
+impl EvolutionRun {
     fn generations_done(&self) -> u32 {
         u32::try_from(self.progress.curve.len()).expect("a run has saturating_count generations")
     }
@@ -223,7 +237,7 @@ impl TrainingRun for EvolutionRun {
     }
 
     fn curve(&self) -> Curve {
-        Curve::Evolution(self.progress.curve.clone())
+        Curve::of(&self.progress.curve)
     }
 
     fn model(&self) -> Model {
@@ -234,27 +248,6 @@ impl TrainingRun for EvolutionRun {
         let best = [(BEST_PARAMS.to_owned(), self.progress.best_params.as_slice())];
         checkpoint::write(path, &self.identity, &self.params, &self.adam, &self.progress, best)
     }
-}
-
-/// Reads the parameters, moments and progress of a checkpoint, and checks that they can be those of
-/// this run.
-fn read_checkpoint(
-    path: &Path,
-    identity: &RunIdentity,
-    settings: &EvolutionSettings,
-    parameters: usize,
-) -> Result<(Vec<f32>, Adam, Progress), Error> {
-    let mut checkpoint = checkpoint::read::<Progress>(path, identity, parameters)?;
-    checkpoint.progress.best_params = checkpoint.best_params()?;
-    let curve = &checkpoint.progress.curve;
-    let broken = |rule| Err(Error::BadCheckpoint { rule });
-    if curve.len() > settings.generations as usize {
-        return broken(format!("{} generations are more than the run has", curve.len()));
-    }
-    if curve.iter().zip(1..).any(|(row, number)| row.generation != number) {
-        return broken("generations must be numbered from 1 on".to_owned());
-    }
-    Ok((checkpoint.params, checkpoint.adam, checkpoint.progress))
 }
 
 /// The gain by which weights are kept: the mean of those on the network's days and on days of

@@ -26,17 +26,3 @@ pub struct ImitationRow {
     /// size.
     pub random_gain: Option<f64>,
 }
-
-impl ImitationRow {
-    /// What was measured, under the names that TensorBoard shows.
-    pub(crate) fn scalars(&self) -> Vec<(&'static str, f64)> {
-        let mut scalars = vec![
-            ("eval/mean_reward", self.validation_reward),
-            ("eval/gain", self.gain),
-            ("train/agreement", self.agreement),
-            ("train/lift", self.lift),
-        ];
-        scalars.extend(self.random_gain.map(|gain| ("eval/random_gain", gain)));
-        scalars
-    }
-}

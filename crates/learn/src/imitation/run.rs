@@ -15,12 +15,11 @@ use vertifleet_observe::PricedDecision;
 use vertifleet_policy::{DayPrices, Shortlist, draw};
 use vertifleet_sim::Simulation;
 
-use crate::adam::Adam;
 use crate::error::Error;
 use crate::header::Header;
 use crate::imitation::dataset::{Dataset, Samples};
 use crate::imitation::teacher::Teacher;
-use crate::imitation::update::{Fit, Learner, Pace};
+use crate::imitation::update::{Fit, Optimiser, Pace};
 use crate::imitation::{ImitationRow, ImitationSettings};
 use crate::model::Model;
 use crate::nn::Weights;
@@ -30,6 +29,7 @@ use crate::run::{
     Curve, RunIdentity, TrainingRequest, TrainingRun, Work, check_finite, checkpoint,
 };
 use crate::scorer::Scorer;
+use crate::settings::Learner;
 use crate::validation::ValidationDays;
 
 /// About how many decisions an aircraft takes on a day.
@@ -44,7 +44,7 @@ pub(crate) struct ImitationRun {
     world: World,
     /// The weights that the run began with.
     first: Vec<f32>,
-    learner: Learner,
+    learner: Optimiser,
     dataset: Dataset,
     curve: Vec<ImitationRow>,
     validation: ValidationDays,
@@ -59,44 +59,54 @@ struct Progress {
     vertiports: Vec<usize>,
 }
 
-impl ImitationRun {
-    /// A run before its first round, or one that is resumed from a checkpoint.
-    pub(crate) fn new(
+impl Learner for ImitationSettings {
+    fn curve_opening(&self) -> &'static str {
+        "round,decisions,agreement,lift,"
+    }
+
+    fn begin(
+        &self,
         plan: &TrainingRequest,
         identity: RunIdentity,
-        settings: ImitationSettings,
         from: Option<&Path>,
-    ) -> Result<Self, Error> {
-        if plan.policy.learns_by_ppo() && settings.own_rounds > 0 {
+    ) -> Result<Box<dyn TrainingRun>, Error> {
+        if plan.policy.learns_by_ppo() && self.own_rounds > 0 {
             let rule = format!("must be 0 for {}, whose logits are in no unit", plan.policy.name());
             return Err(Error::BadSetting { name: "own_rounds".to_owned(), rule });
         }
-        if settings.kept > 0.0 && plan.begin_with.is_none() {
+        if self.kept > 0.0 && plan.begin_with.is_none() {
             let rule = "must be 0 for a run that begins with fresh weights".to_owned();
             return Err(Error::BadSetting { name: "kept".to_owned(), rule });
         }
-        let Begin { net, vertiports, header } = Begin::of(plan, settings.random_share)?;
-        let first = plan.first_params(&net);
-        let (params, adam, dataset, curve) = if let Some(path) = from {
-            read_checkpoint(path, &identity, &settings, net.layout().len())?
-        } else {
-            (first.clone(), Adam::new(first.len()), Dataset::default(), Vec::new())
-        };
+        let Begin { net, vertiports, header, params, adam, checkpoint } =
+            Begin::<Progress>::of(plan, &identity, self.random_share, from)?;
+        // Which days a round plays, and the order in which it meets its samples, follow from the
+        // seed and the round's number, so that a checkpoint stores nothing else.
+        let (mut dataset, mut curve) = (Dataset::default(), Vec::new());
+        if let Some(checkpoint) = checkpoint {
+            let vertiports = &checkpoint.progress.vertiports;
+            dataset = checkpoint.others(|file| Dataset::read(file, &plan.policy, vertiports))?;
+            curve = checkpoint.progress.curve;
+        }
+        let numbers = curve.iter().map(|row: &ImitationRow| row.round);
+        checkpoint::check_steps("rounds", numbers, self.rounds)?;
         let validation =
-            ValidationDays::of(&plan.world, settings.validation_days, plan.policy.fits_any_size())?;
-        Ok(Self {
+            ValidationDays::of(&plan.world, self.validation_days, plan.policy.fits_any_size())?;
+        Ok(Box::new(ImitationRun {
             header,
             world: plan.world.clone(),
-            first,
-            learner: Learner::new(plan.policy.clone(), vertiports, params, adam),
+            first: plan.first_params(&net),
+            learner: Optimiser::new(plan.policy.clone(), vertiports, params, adam),
             identity,
-            settings,
+            settings: self.clone(),
             dataset,
             curve,
             validation,
-        })
+        }))
     }
+}
 
+impl ImitationRun {
     /// Plays days, learns, and measures on the validation days. After [`Error::Stopped`], nothing
     /// is undone.
     fn round(&mut self, stop: &Stop, worked: &(dyn Fn(u64) + Sync)) -> Result<ImitationRow, Error> {
@@ -230,7 +240,7 @@ impl TrainingRun for ImitationRun {
     }
 
     fn curve(&self) -> Curve {
-        Curve::Imitation(self.curve.clone())
+        Curve::of(&self.curve)
     }
 
     fn model(&self) -> Model {
@@ -248,31 +258,9 @@ impl TrainingRun for ImitationRun {
     fn write_checkpoint(&self, path: &Path) -> Result<(), Error> {
         let vertiports = self.dataset.lengths().into_keys().collect();
         let progress = Progress { curve: self.curve.clone(), vertiports };
-        let Learner { weights, adam, .. } = &self.learner;
+        let Optimiser { weights, adam, .. } = &self.learner;
         let samples: Vec<_> = self.dataset.tensors(&self.identity.policy).collect();
         let samples = samples.iter().map(|(name, numbers)| (name.clone(), &numbers[..]));
         checkpoint::write(path, &self.identity, weights.params(), adam, &progress, samples)
     }
-}
-
-/// Reads the parameters, moments, samples and curve of a checkpoint, and checks that they can be
-/// those of this run. Which days a round plays, and the order in which it meets its samples, follow
-/// from the seed and the round's number, so that nothing else is stored.
-fn read_checkpoint(
-    path: &Path,
-    identity: &RunIdentity,
-    settings: &ImitationSettings,
-    parameters: usize,
-) -> Result<(Vec<f32>, Adam, Dataset, Vec<ImitationRow>), Error> {
-    let checkpoint = checkpoint::read::<Progress>(path, identity, parameters)?;
-    let Progress { curve, vertiports } = &checkpoint.progress;
-    let broken = |rule| Err(Error::BadCheckpoint { rule });
-    if curve.len() > settings.rounds as usize {
-        return broken(format!("{} rounds are more than the run has", curve.len()));
-    }
-    if curve.iter().zip(1..).any(|(row, number)| row.round != number) {
-        return broken("rounds must be numbered from 1 on".to_owned());
-    }
-    let dataset = checkpoint.others(|file| Dataset::read(file, &identity.policy, vertiports))?;
-    Ok((checkpoint.params, checkpoint.adam, dataset, checkpoint.progress.curve))
 }

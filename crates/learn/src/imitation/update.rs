@@ -35,7 +35,7 @@ const LANES: usize = 4;
 const MAX_NORM: f32 = 0.5;
 
 /// The state and the working memory of learning.
-pub(crate) struct Learner {
+pub(crate) struct Optimiser {
     architecture: Architecture,
     /// The network whose products are derived and whose gradient is completed; neither depends on
     /// the number of vertiports.
@@ -81,7 +81,7 @@ pub(crate) struct Pace {
     pub(crate) entropy_weight: f32,
 }
 
-impl Learner {
+impl Optimiser {
     /// The learner of a policy that fits this number of vertiports, or any.
     pub(crate) fn new(
         architecture: Architecture,
@@ -224,7 +224,7 @@ fn decision_loss(
     let unit = LOGITS_A_UNIT as f32;
     // This is minus infinity for a vertiport that is not on the list.
     let whole = |at: usize| logits[at] + priced_weight * priced[at];
-    let highest = (0..logits.len()).map(whole).fold(f32::NEG_INFINITY, f32::max);
+    let highest = nn::maximum((0..logits.len()).map(whole));
     let total: f32 = (0..logits.len()).map(|at| (whole(at) - highest).exp()).sum();
     let log_total = highest + total.ln();
     let listed = || (0..logits.len()).filter(|&at| logits[at] > f32::NEG_INFINITY);

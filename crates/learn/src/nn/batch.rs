@@ -34,3 +34,8 @@ pub(crate) struct Outputs {
     pub(crate) logits: Vec<f32>,
     pub(crate) values: Vec<f32>,
 }
+
+/// The maximum of some logits or scores; minus infinity if there are none.
+pub(crate) fn maximum(numbers: impl Iterator<Item = f32>) -> f32 {
+    numbers.fold(f32::NEG_INFINITY, f32::max)
+}

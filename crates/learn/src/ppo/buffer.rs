@@ -276,7 +276,7 @@ impl Group {
 /// the logarithm of its probability. Masked vertiports have a logit of minus infinity, so their
 /// probability is 0.
 fn sample(logits: &[f32], uniform: f32) -> (VertiportIx, f32) {
-    let highest = logits.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let highest = nn::maximum(logits.iter().copied());
     let total: f32 = logits.iter().map(|logit| (logit - highest).exp()).sum();
     let mut left = uniform * total;
     let mut chosen = None;

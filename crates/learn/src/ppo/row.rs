@@ -30,20 +30,3 @@ pub struct PpoRow {
     /// Adam's step size.
     pub learning_rate: f64,
 }
-
-impl PpoRow {
-    /// What was measured, under the names that stable-baselines3 uses.
-    pub(crate) fn scalars(&self) -> Vec<(&'static str, f64)> {
-        let scalars = [
-            ("rollout/ep_rew_mean", self.mean_reward),
-            ("eval/mean_reward", self.validation_reward),
-            ("train/policy_gradient_loss", Some(self.policy_loss)),
-            ("train/value_loss", Some(self.value_loss)),
-            ("train/entropy", Some(self.entropy)),
-            ("train/approx_kl", Some(self.approx_kl)),
-            ("train/clip_fraction", Some(self.clip_fraction)),
-            ("train/learning_rate", Some(self.learning_rate)),
-        ];
-        scalars.into_iter().filter_map(|(tag, value)| Some((tag, value?))).collect()
-    }
-}

@@ -21,6 +21,7 @@ use crate::ppo::{PpoRow, PpoSettings};
 use crate::run::begin::Begin;
 use crate::run::checkpoint::{self, BEST_PARAMS};
 use crate::run::{Curve, RunIdentity, TrainingRequest, TrainingRun, Work, check_finite};
+use crate::settings::Learner;
 
 /// Number of days whose rewards the curve averages, as in stable-baselines3.
 const RECENT_DAYS: usize = 100;
@@ -58,44 +59,57 @@ struct Progress {
     curve: Vec<PpoRow>,
 }
 
-impl PpoRun {
-    /// A run before its first update, or one that is resumed from a checkpoint.
-    pub(crate) fn new(
+impl Learner for PpoSettings {
+    fn curve_opening(&self) -> &'static str {
+        "update,steps,days,mean_reward,"
+    }
+
+    fn begin(
+        &self,
         plan: &TrainingRequest,
         identity: RunIdentity,
-        settings: PpoSettings,
         from: Option<&Path>,
-    ) -> Result<Self, Error> {
-        let Begin { net, vertiports, header } = Begin::of(plan, 0.0)?;
-        let (params, adam, mut progress) = if let Some(path) = from {
-            read_checkpoint(path, &identity, &settings, net.layout().len())?
-        } else {
-            let params = plan.first_params(&net);
-            (params.clone(), Adam::new(params.len()), Progress::new(params))
-        };
+    ) -> Result<Box<dyn TrainingRun>, Error> {
+        if !plan.policy.learns_by_ppo() {
+            let rule = format!("{} does not learn by PPO", plan.policy.name());
+            return Err(Error::BadSetting { name: "policy".to_owned(), rule });
+        }
+        let Begin { net, vertiports, header, params, adam, checkpoint } =
+            Begin::of(plan, &identity, 0.0, from)?;
+        let mut progress = Progress::new(params.clone());
+        if let Some(checkpoint) = checkpoint {
+            let best_params = checkpoint.best_params()?;
+            progress = Progress { best_params, ..checkpoint.progress };
+        }
+        if progress.updates > self.updates() {
+            let rule = format!("{} updates are more than the run has", progress.updates);
+            return Err(Error::BadCheckpoint { rule });
+        }
         let source = Source { world: plan.world.clone(), run_seed: plan.seed };
         let days = from.map(|_| std::mem::take(&mut progress.days));
-        let validation = (0..u64::from(settings.eval_days))
+        let validation = (0..u64::from(self.eval_days))
             .map(|day| {
                 let network = plan.world.network(Purpose::Validation, day);
                 Ok(Arc::new(network.draw(DaySeed::validation(day)?)))
             })
             .collect::<Result<_, Error>>()?;
-        Ok(Self {
-            buffer: Buffer::new(&source, &net, &settings, days)?,
-            ppo: Ppo::new(&net, vertiports, &settings),
+        Ok(Box::new(PpoRun {
+            buffer: Buffer::new(&source, &net, self, days)?,
+            ppo: Ppo::new(&net, vertiports, self),
             weights: net.weights(params),
             header,
             identity,
-            settings,
+            settings: self.clone(),
             net,
             adam,
             source,
             validation,
             progress,
-        })
+        }))
     }
+}
 
+impl PpoRun {
     /// Collects decisions and learns from them. After [`Error::Stopped`], nothing is undone.
     fn update(&mut self, stop: &Stop, worked: &dyn Fn(u64)) -> Result<PpoRow, Error> {
         let finished = self.buffer.collect(&self.source, &self.net, &self.weights)?;
@@ -196,7 +210,7 @@ impl TrainingRun for PpoRun {
     }
 
     fn curve(&self) -> Curve {
-        Curve::Ppo(self.progress.curve.clone())
+        Curve::of(&self.progress.curve)
     }
 
     fn model(&self) -> Model {
@@ -212,23 +226,6 @@ impl TrainingRun for PpoRun {
         let best = [(BEST_PARAMS.to_owned(), self.progress.best_params.as_slice())];
         checkpoint::write(path, &self.identity, self.weights.params(), &self.adam, &progress, best)
     }
-}
-
-/// Reads the parameters, moments and progress of a checkpoint, and checks that they can be those of
-/// this run.
-fn read_checkpoint(
-    path: &Path,
-    identity: &RunIdentity,
-    settings: &PpoSettings,
-    parameters: usize,
-) -> Result<(Vec<f32>, Adam, Progress), Error> {
-    let mut checkpoint = checkpoint::read::<Progress>(path, identity, parameters)?;
-    checkpoint.progress.best_params = checkpoint.best_params()?;
-    if checkpoint.progress.updates > settings.updates() {
-        let rule = format!("{} updates are more than the run has", checkpoint.progress.updates);
-        return Err(Error::BadCheckpoint { rule });
-    }
-    Ok((checkpoint.params, checkpoint.adam, checkpoint.progress))
 }
 
 impl Progress {

@@ -285,7 +285,7 @@ fn decision_loss(
     weight: f32,
     logit_slopes: &mut [f32],
 ) -> DecisionLoss {
-    let highest = logits.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let highest = nn::maximum(logits.iter().copied());
     let mut total = 0.0;
     for (slope, logit) in logit_slopes.iter_mut().zip(logits) {
         *slope = (logit - highest).exp();

@@ -1,32 +1,46 @@
 //! What runs have in common before they learn: the sizes of what a policy sees, and, for imitation
 //! and evolution, the days that a round learns from.
 
+use std::path::Path;
 use std::sync::Arc;
 
+use serde::de::DeserializeOwned;
 use vertifleet_core::{DaySeed, Purpose, Scenario, World, random_city};
 
+use crate::adam::Adam;
 use crate::error::Error;
 use crate::header::{FORMAT, FeatureShape, Header};
 use crate::nn;
-use crate::run::TrainingRequest;
+use crate::run::checkpoint::{self, Checkpoint};
+use crate::run::{RunIdentity, TrainingRequest};
 
-/// The policy of a run before it has learned anything.
-pub(crate) struct Begin {
+/// The policy of a run before it has learned anything, or where it was resumed.
+pub(crate) struct Begin<Progress> {
     pub(crate) net: nn::NeuralNetwork,
     /// The number of vertiports that `net` is for. Weights that fit any size have the same shapes
     /// for every number.
     pub(crate) vertiports: usize,
     /// The header of the run's models, except for the number of steps.
     pub(crate) header: Header,
+    pub(crate) params: Vec<f32>,
+    pub(crate) adam: Adam,
+    /// What the run is resumed from.
+    pub(crate) checkpoint: Option<Checkpoint<Progress>>,
 }
 
-impl Begin {
+impl<Progress: DeserializeOwned> Begin<Progress> {
     /// The beginning of a run that learns from days of random networks too, as large a share of all
     /// as `random_share`.
     ///
     /// # Errors
-    /// [`Error::BadSetting`] if policy, world and share do not go together.
-    pub(crate) fn of(plan: &TrainingRequest, random_share: f64) -> Result<Self, Error> {
+    /// [`Error::BadSetting`] if policy, world and share do not go together, or an error if the
+    /// checkpoint is damaged or belongs to another run.
+    pub(crate) fn of(
+        plan: &TrainingRequest,
+        identity: &RunIdentity,
+        random_share: f64,
+        from: Option<&Path>,
+    ) -> Result<Self, Error> {
         let bad = |name: &str, rule: String| Error::BadSetting { name: name.to_owned(), rule };
         let fits_any = plan.policy.fits_any_size();
         if !fits_any && random_share > 0.0 {
@@ -59,7 +73,16 @@ impl Begin {
             steps: 0,
             begun_with: plan.begun_with(),
         };
-        Ok(Self { net, vertiports, header })
+        let checkpoint = from.map(|path| checkpoint::read(path, identity, net.layout().len()));
+        let checkpoint = checkpoint.transpose()?;
+        let (params, adam) = if let Some(Checkpoint { params, adam, .. }) = &checkpoint {
+            (params.clone(), adam.clone())
+        } else {
+            let params = plan.first_params(&net);
+            let adam = Adam::new(params.len());
+            (params, adam)
+        };
+        Ok(Self { net, vertiports, header, params, adam, checkpoint })
     }
 }
 

@@ -128,6 +128,22 @@ pub(crate) fn tensor(
     Ok(values)
 }
 
+/// Checks the rows of a curve, given by their numbers, which a run of `most` steps can have.
+pub(crate) fn check_steps(
+    steps: &str,
+    numbers: impl ExactSizeIterator<Item = u32>,
+    most: u32,
+) -> Result<(), Error> {
+    let broken = |rule| Err(Error::BadCheckpoint { rule });
+    if numbers.len() > most as usize {
+        return broken(format!("{} {steps} are more than the run has", numbers.len()));
+    }
+    if numbers.zip(1..).any(|(number, expected)| number != expected) {
+        return broken(format!("{steps} must be numbered from 1 on"));
+    }
+    Ok(())
+}
+
 /// Removes a member from a header and returns it.
 fn member<T: DeserializeOwned>(header: &mut Map<String, Value>, name: &str) -> Result<T, String> {
     let value = header.remove(name).unwrap_or_default();

@@ -1,30 +1,37 @@
-//! Learning curves, with one row for an update of PPO, a round of imitation or a generation of
-//! evolution. They are CSV files beside the weights of their run; curves of runs with other seeds
-//! may stand there too.
+//! Learning curves, with one row for a step of learning, whichever way it is. They are CSV files
+//! beside the weights of their run; curves of runs with other seeds may stand there too.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use serde::de::DeserializeOwned;
 
 use crate::error::Error;
-use crate::evolution::EvolutionRow;
-use crate::imitation::ImitationRow;
-use crate::ppo::PpoRow;
 
 /// Longer files are not read. No learning curve of this program comes near this size, in bytes.
 const LONGEST: u64 = 64 << 20;
+/// The columns that every curve has first: the number of the step, under its own name, and the
+/// number of decisions learned from by then.
+const DECISIONS: usize = 1;
 
-/// The course of a run from its beginning.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Curve {
-    /// One row per update.
-    Ppo(Vec<PpoRow>),
-    /// One row per round.
-    Imitation(Vec<ImitationRow>),
-    /// One row per generation.
-    Evolution(Vec<EvolutionRow>),
+/// The course of a run from its beginning: columns of numbers, the first two of which count steps
+/// and decisions learned from.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Curve {
+    columns: Vec<String>,
+    rows: Vec<Vec<Cell>>,
+}
+
+/// A number in a row.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Cell {
+    /// A whole number.
+    Count(u64),
+    /// Any number.
+    Number(f64),
+    /// What was not measured after this step.
+    Unmeasured,
 }
 
 impl Curve {
@@ -62,122 +69,146 @@ impl Curve {
     /// # Errors
     /// Returns [`Error::BadCurve`] for the first row that is not valid.
     pub(crate) fn from_csv(text: &str, origin: &str) -> Result<Self, Error> {
-        if text.starts_with("round,") {
-            return Ok(Self::Imitation(rows(text, origin)?));
+        let bad = |line, rule| Error::BadCurve { origin: origin.to_owned(), line, rule };
+        let of_csv = |error: csv::Error| {
+            bad(error.position().map_or(1, csv::Position::line), error.to_string())
+        };
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let columns: Vec<String> =
+            reader.headers().map_err(of_csv)?.iter().map(str::to_owned).collect();
+        if !columns.is_empty() && !columns.iter().any(|column| column == "validation_reward") {
+            return Err(bad(1, "it has no column \"validation_reward\"".to_owned()));
         }
-        if text.starts_with("generation,") {
-            return Ok(Self::Evolution(rows(text, origin)?));
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(of_csv)?;
+            let line = record.position().map_or(1, csv::Position::line);
+            let mut cells = Vec::with_capacity(columns.len());
+            for (at, (text, column)) in record.iter().zip(&columns).enumerate() {
+                let cell = Cell::parse(text);
+                let counts = |cell: &Cell| at > DECISIONS || matches!(cell, Cell::Count(_));
+                let rule = || format!("{column} must be a number, found {text:?}");
+                cells.push(cell.filter(counts).ok_or_else(|| bad(line, rule()))?);
+            }
+            rows.push(cells);
         }
-        Ok(Self::Ppo(rows(text, origin)?))
+        Ok(Self { columns, rows })
     }
 
-    /// The curve as CSV text, with one column for each member of its rows.
-    pub fn to_csv(&self) -> String {
-        match self {
-            Self::Ppo(rows) => csv_of(rows),
-            Self::Imitation(rows) => csv_of(rows),
-            Self::Evolution(rows) => csv_of(rows),
+    /// The curve of a run with these rows.
+    pub(crate) fn of(rows: &[impl Serialize]) -> Self {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for row in rows {
+            writer.serialize(row).expect("rows of numbers go into memory");
         }
+        Self::from_csv(&text(writer), "the run").expect("rows are numbers")
+    }
+
+    /// The curve as CSV text.
+    pub fn to_csv(&self) -> String {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        if !self.columns.is_empty() {
+            writer.write_record(&self.columns).expect("memory takes everything");
+        }
+        for row in &self.rows {
+            writer.serialize(row).expect("rows of numbers go into memory");
+        }
+        text(writer)
+    }
+
+    /// The names of the columns.
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// The rows, each with a number in every column.
+    pub fn rows(&self) -> &[Vec<Cell>] {
+        &self.rows
     }
 
     /// Number of decisions learned from by the last row; 0 before the first row.
     pub fn steps(&self) -> u64 {
-        match self {
-            Self::Ppo(rows) => rows.last().map_or(0, |row| row.steps),
-            Self::Imitation(rows) => rows.last().map_or(0, |row| row.decisions),
-            Self::Evolution(rows) => rows.last().map_or(0, |row| row.decisions),
-        }
+        self.rows.last().map_or(0, |row| decisions(row))
     }
 
     /// Whether the run has learned nothing yet.
     pub fn is_empty(&self) -> bool {
-        match self {
-            Self::Ppo(rows) => rows.is_empty(),
-            Self::Imitation(rows) => rows.is_empty(),
-            Self::Evolution(rows) => rows.is_empty(),
-        }
+        self.rows.is_empty()
     }
 
-    /// Number of decisions learned from, and mean reward of the last training days; empty for
-    /// imitation, which does not learn from rewards, and for evolution, whose training days are
-    /// played with moved weights.
+    /// Number of decisions learned from, and the number in a column, for the rows that measured it;
+    /// empty if there is no such column.
+    pub fn measured(&self, column: &str) -> Vec<(u64, f64)> {
+        let Some(at) = self.columns.iter().position(|name| name == column) else {
+            return Vec::new();
+        };
+        self.rows.iter().filter_map(|row| Some((decisions(row), row[at].number()?))).collect()
+    }
+
+    /// Number of decisions learned from, and mean reward of the last training days; empty for ways
+    /// to learn that do not learn from the rewards of their own days.
     pub fn training_rewards(&self) -> Vec<(u64, f64)> {
-        match self {
-            Self::Ppo(rows) => {
-                rows.iter().filter_map(|row| Some((row.steps, row.mean_reward?))).collect()
-            }
-            Self::Imitation(_) | Self::Evolution(_) => Vec::new(),
-        }
+        self.measured("mean_reward")
     }
 
     /// Number of decisions learned from, and mean reward on the validation days, for the rows that
     /// measured it.
     pub fn validation_rewards(&self) -> Vec<(u64, f64)> {
+        self.measured("validation_reward")
+    }
+
+    /// A row for TensorBoard: number of decisions learned from, and what was measured by then, by
+    /// its tag.
+    pub(crate) fn scalars(&self, row: usize) -> (u64, Vec<(String, f64)>) {
+        let row = &self.rows[row];
+        let measured = self.columns.iter().zip(row).filter_map(|(column, cell)| match cell {
+            Cell::Number(number) => Some((tag(column), *number)),
+            Cell::Count(_) | Cell::Unmeasured => None,
+        });
+        (decisions(row), measured.collect())
+    }
+}
+
+impl Cell {
+    fn parse(text: &str) -> Option<Self> {
+        if text.is_empty() {
+            return Some(Self::Unmeasured);
+        }
+        let count = text.parse().ok().map(Self::Count);
+        count.or_else(|| text.parse().ok().map(Self::Number))
+    }
+
+    /// The number, if it was measured.
+    pub fn number(self) -> Option<f64> {
         match self {
-            Self::Ppo(rows) => {
-                rows.iter().filter_map(|row| Some((row.steps, row.validation_reward?))).collect()
-            }
-            Self::Imitation(rows) => {
-                rows.iter().map(|row| (row.decisions, row.validation_reward)).collect()
-            }
-            Self::Evolution(rows) => rows
-                .iter()
-                .filter_map(|row| Some((row.decisions, row.validation_reward?)))
-                .collect(),
+            Self::Count(count) => Some(count as f64),
+            Self::Number(number) => Some(number),
+            Self::Unmeasured => None,
         }
     }
+}
 
-    /// The rows for TensorBoard: number of decisions learned from, and what was measured by then.
-    pub(crate) fn scalars(&self) -> Vec<Scalars> {
-        match self {
-            Self::Ppo(rows) => rows.iter().map(ppo_scalars).collect(),
-            Self::Imitation(rows) => rows.iter().map(imitation_scalars).collect(),
-            Self::Evolution(rows) => rows.iter().map(evolution_scalars).collect(),
-        }
-    }
-
-    /// The last of the [`scalars`](Self::scalars).
-    pub(crate) fn last_scalars(&self) -> Option<Scalars> {
-        match self {
-            Self::Ppo(rows) => rows.last().map(ppo_scalars),
-            Self::Imitation(rows) => rows.last().map(imitation_scalars),
-            Self::Evolution(rows) => rows.last().map(evolution_scalars),
-        }
+fn decisions(row: &[Cell]) -> u64 {
+    match row.get(DECISIONS) {
+        Some(&Cell::Count(decisions)) => decisions,
+        _ => 0,
     }
 }
 
-/// Decisions learned from, and what was measured by then, by name.
-pub(crate) type Scalars = (u64, Vec<(&'static str, f64)>);
-
-fn ppo_scalars(row: &PpoRow) -> Scalars {
-    (row.steps, row.scalars())
-}
-
-fn imitation_scalars(row: &ImitationRow) -> Scalars {
-    (row.decisions, row.scalars())
-}
-
-fn evolution_scalars(row: &EvolutionRow) -> Scalars {
-    (row.decisions, row.scalars())
-}
-
-fn csv_of(rows: &[impl Serialize]) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.serialize(row).expect("rows of numbers go into memory");
+/// The name of a column in TensorBoard, which is that of stable-baselines3 where it has one.
+fn tag(column: &str) -> String {
+    match column {
+        "mean_reward" => "rollout/ep_rew_mean".to_owned(),
+        "validation_reward" => "eval/mean_reward".to_owned(),
+        "policy_loss" => "train/policy_gradient_loss".to_owned(),
+        "gain" | "random_gain" => format!("eval/{column}"),
+        _ => format!("train/{column}"),
     }
+}
+
+fn text(writer: csv::Writer<Vec<u8>>) -> String {
     let bytes = writer.into_inner().expect("memory takes everything");
     String::from_utf8(bytes).expect("numbers are text")
-}
-
-fn rows<Row: DeserializeOwned>(text: &str, origin: &str) -> Result<Vec<Row>, Error> {
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let rows = reader.deserialize().collect::<Result<_, csv::Error>>();
-    rows.map_err(|error| Error::BadCurve {
-        origin: origin.to_owned(),
-        line: error.position().map_or(1, csv::Position::line),
-        rule: error.to_string(),
-    })
 }
 
 /// The curves of runs with other seeds, each with its seed, in the order of the seeds.
@@ -206,7 +237,7 @@ mod tests {
     use std::fs;
     use vertifleet_core::Coded;
 
-    use super::Curve;
+    use super::{Cell, Curve};
     use crate::evolution::EvolutionRow;
     use crate::imitation::ImitationRow;
     use crate::ppo::PpoRow;
@@ -215,17 +246,13 @@ mod tests {
     fn curves_of_other_seeds_follow_that_of_the_weights_in_order() {
         let folder = tempfile::tempdir().expect("a folder");
         let write = |name: &str, update| {
-            let curve = Curve::Ppo(vec![PpoRow { update, ..PpoRow::default() }]);
+            let curve = Curve::of(&[PpoRow { update, ..PpoRow::default() }]);
             fs::write(folder.path().join(name), curve.to_csv()).expect("a file");
         };
         let weights = folder.path().join("mine.safetensors");
-        let updates = || -> Vec<u64> {
-            let rows = |curve| match curve {
-                Curve::Ppo(rows) => rows,
-                other => panic!("no such rows were written: {other:?}"),
-            };
-            let curves = Curve::read_beside(&weights).expect("curves").into_iter();
-            curves.flat_map(rows).map(|row| row.update).collect()
+        let updates = || -> Vec<Cell> {
+            let curves = Curve::read_beside(&weights).expect("curves");
+            curves.iter().flat_map(Curve::rows).map(|row| row[0]).collect()
         };
         write("mine-seed-10-curve.csv", 10);
         assert!(updates().is_empty(), "nothing to compare them with");
@@ -237,7 +264,7 @@ mod tests {
         ] {
             write(name, update);
         }
-        assert_eq!(updates(), [1, 2, 10]);
+        assert_eq!(updates(), [1, 2, 10].map(Cell::Count));
     }
 
     #[test]
@@ -245,14 +272,28 @@ mod tests {
         let row = PpoRow { update: 3, mean_reward: Some(0.03125), ..PpoRow::default() };
         let round = ImitationRow { round: 1, gain: 0.5, ..ImitationRow::default() };
         let generation = EvolutionRow { generation: 1, gain: Some(0.5), ..EvolutionRow::default() };
-        for curve in [
-            Curve::Ppo(vec![PpoRow::default(), row]),
-            Curve::Imitation(vec![ImitationRow::default(), round]),
-            Curve::Evolution(vec![EvolutionRow::default(), generation]),
+        for (curve, column) in [
+            (Curve::of(&[PpoRow::default(), row]), "mean_reward"),
+            (Curve::of(&[ImitationRow::default(), round]), "gain"),
+            (Curve::of(&[EvolutionRow::default(), generation]), "gain"),
         ] {
             assert_eq!(Curve::from_csv(&curve.to_csv(), "curve").expect("a curve"), curve);
+            let (_, last) = *curve.measured(column).last().expect("it was measured");
+            assert!(last == 0.5 || last == 0.03125, "{last}");
         }
-        let error = Curve::from_csv("update,steps\n1,x\n", "curve").expect_err("no curve");
-        assert_eq!(error.code().to_string(), "V308");
+    }
+
+    #[test]
+    fn what_is_no_curve_is_refused_with_its_line() {
+        for (text, line) in [
+            ("update,steps\n1,2\n", "line 1"),
+            ("update,steps,validation_reward\n1,2,\n2,x,0.5\n", "line 3"),
+            ("update,steps,validation_reward\n1,,0.5\n", "line 2"),
+            ("update,steps,validation_reward\n1\n", "line 2"),
+        ] {
+            let error = Curve::from_csv(text, "curve").expect_err(text);
+            assert_eq!(error.code().to_string(), "V308");
+            assert!(error.to_string().contains(line), "{error}");
+        }
     }
 }

@@ -42,7 +42,8 @@ impl EventFile {
         let mut event = wall_time(unix_seconds);
         bytes_field(&mut event, 3, b"brain.Event:2");
         events.record(&event)?;
-        for (steps, scalars) in so_far.scalars() {
+        for row in 0..so_far.rows().len() {
+            let (steps, scalars) = so_far.scalars(row);
             events.append(unix_seconds, steps, &scalars)?;
         }
         events.remove_earlier(folder)?;
@@ -70,15 +71,15 @@ impl EventFile {
         &mut self,
         unix_seconds: f64,
         steps: u64,
-        scalars: &[(&'static str, f64)],
+        scalars: &[(String, f64)],
     ) -> Result<(), Error> {
         let mut summary = Vec::new();
-        for &(tag, value) in scalars {
+        for (tag, value) in scalars {
             // A Summary.Value has the fields tag (1) and simple_value (2, 32-bit).
             let mut scalar = Vec::new();
             bytes_field(&mut scalar, 1, tag.as_bytes());
             scalar.push(2 << 3 | 5);
-            scalar.extend((value as f32).to_le_bytes());
+            scalar.extend((*value as f32).to_le_bytes());
             bytes_field(&mut summary, 1, &scalar);
         }
         let mut event = wall_time(unix_seconds);
@@ -139,7 +140,8 @@ mod tests {
     use crate::run::Curve;
 
     fn of(rows: &[u64]) -> Curve {
-        Curve::Ppo(rows.iter().map(|&steps| PpoRow { steps, ..PpoRow::default() }).collect())
+        let rows = rows.iter().map(|&steps| PpoRow { steps, ..PpoRow::default() });
+        Curve::of(&rows.collect::<Vec<_>>())
     }
 
     #[test]
@@ -148,7 +150,8 @@ mod tests {
         let mut events =
             EventFile::create(folder.path(), 1_700_000_000.0, &of(&[])).expect("a file");
         let row = PpoRow { mean_reward: Some(0.03125), ..PpoRow::default() };
-        events.append(1_700_000_001.5, 300, &row.scalars()).expect("a file");
+        let (_, scalars) = Curve::of(&[row]).scalars(0);
+        events.append(1_700_000_001.5, 300, &scalars).expect("a file");
         let path = folder.path().join("events.out.tfevents.1700000000.000000.vertifleet");
         let records = records(&path);
         assert_eq!(records.len(), 2);

@@ -75,7 +75,7 @@ impl RunFolder {
         }
         if self.folder.exists() {
             outputs.writes(&self.weights, &kinds::WEIGHTS)?;
-            outputs.writes(&self.curve, kinds::curve(&plan.settings))?;
+            outputs.writes(&self.curve, &kinds::curve(plan.settings.learner().curve_opening()))?;
             outputs.writes(&self.checkpoint, &kinds::CHECKPOINT)?;
         }
         let run = if resume { plan.resume(&self.checkpoint)? } else { plan.start()? };
@@ -138,8 +138,9 @@ impl Events {
     }
 
     fn append_last(&mut self, curve: &Curve, steps_per_second: f64, watch: &dyn TrainingWatch) {
-        let Some((steps, mut scalars)) = curve.last_scalars() else { return };
-        scalars.push(("time/fps", steps_per_second));
+        let Some(last) = curve.rows().len().checked_sub(1) else { return };
+        let (steps, mut scalars) = curve.scalars(last);
+        scalars.push(("time/fps".to_owned(), steps_per_second));
         if let Some(file) = &mut self.0
             && told(file.append(unix_seconds(), steps, &scalars), watch).is_none()
         {

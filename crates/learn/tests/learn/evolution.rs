@@ -6,7 +6,7 @@ use crate::support::{advance, finished, on_mornings, remains};
 use rayon::ThreadPoolBuilder;
 use vertifleet_core::{Coded, Network, Stop, World};
 use vertifleet_learn::nn::{Architecture, GcapsSettings, MlpSettings};
-use vertifleet_learn::{Curve, Error, Model, TrainingRequest, TrainingRun, TrainingSettings};
+use vertifleet_learn::{Error, Model, TrainingRequest, TrainingRun, TrainingSettings};
 
 fn small_mlp() -> Architecture {
     Architecture::Mlp(MlpSettings { width: 16, layers: 2, value_width: 8 })
@@ -44,8 +44,7 @@ fn plan(policy: Architecture, changes: &[(&str, &str)]) -> TrainingRequest {
 
 /// The gains over prices that a run measured.
 fn gains(run: &dyn TrainingRun) -> Vec<f64> {
-    let Curve::Evolution(rows) = run.curve() else { panic!("a run by evolution") };
-    rows.iter().filter_map(|row| row.gain).collect()
+    run.curve().measured("gain").into_iter().map(|(_, gain)| gain).collect()
 }
 
 #[test]

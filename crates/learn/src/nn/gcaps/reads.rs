@@ -14,6 +14,7 @@
 //! | pointer | slopes of the logits |
 //! | slopes of the mean | 1 / N |
 
+use crate::nn::batch::maximum;
 use crate::nn::linear::sum_groups;
 use crate::nn::product::{Matrix, MatrixMut, Write, multiply};
 
@@ -250,7 +251,7 @@ impl Reads {
 
 /// Replaces the scores by the softmax of `scale` times the scores.
 pub(crate) fn softmax(scores: &mut [f32], scale: f32) {
-    let highest = scores.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    let highest = maximum(scores.iter().copied());
     let mut total = 0.0;
     for score in &mut *scores {
         *score = ((*score - highest) * scale).exp();
