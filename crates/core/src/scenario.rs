@@ -135,7 +135,7 @@ pub struct Day {
     pub fare_usd: Fares,
     /// R_ij, dollars a passenger.
     pub passenger_cost_usd: Matrix<f64>,
-    /// Cost of a flight with or without passengers, beside its energy; dollars a flight, all 0 in
+    /// Cost of a flight without its energy, with or without passengers; dollars a flight, all 0 in
     /// the paper.
     pub flight_cost_usd: Matrix<f64>,
     /// Cost of each aircraft of the fleet, whether or not it flies; dollars a day, 0 in the paper.
@@ -196,7 +196,7 @@ impl Scenario {
         corridors.is_none_or(|routes| routes.iter().any(|route| route.covers(from, to)))
     }
 
-    /// Whether any flight has a cost that it has with or without passengers, beside its energy.
+    /// Whether any flight has a cost without its energy, with or without passengers.
     pub fn has_flight_costs(&self) -> bool {
         self.flight_cost_usd.cells().iter().any(|&cost_usd| cost_usd != 0.0)
     }

@@ -165,7 +165,7 @@ const INFOS: [Info; 46] = [
     info(Part::PassengerCost, ("passenger_cost", Some("passenger_cost_usd")), PAIR, USD, POSITIVE,
         "cost of a passenger"),
     info(Part::FlightCost, ("flight_cost", Some("flight_cost_usd")), PAIR, USD, POSITIVE,
-        "cost of a flight beside its energy"),
+        "cost of a flight, without its energy"),
     info(Part::Distance, ("distance", Some("distance_mi")), PAIR, MILES, POSITIVE,
         "distance"),
     info(Part::FlightTime, ("flight_time", Some("flight_time_h")), PAIR, HOURS, POSITIVE,

@@ -56,7 +56,7 @@ pub struct TraceRow {
     pub energy_kwh: f64,
     /// Cost of charging, dollars.
     pub energy_cost_usd: f64,
-    /// Cost of the flight with or without passengers, beside its energy; dollars.
+    /// Cost of the flight without its energy, with or without passengers; dollars.
     pub flight_cost_usd: f64,
     /// The time at which the flight ends.
     pub arrival: Time,

@@ -198,7 +198,7 @@ impl<'a> View<'a> {
         self.scenario().passenger_cost_usd.row(from)
     }
 
-    /// Cost of a flight with or without passengers, beside its energy; dollars, from one vertiport
+    /// Cost of a flight without its energy, with or without passengers; dollars, from one vertiport
     /// to each.
     #[inline]
     pub fn flight_costs_usd(&self, from: VertiportIx) -> &'a [f64] {

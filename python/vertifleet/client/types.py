@@ -612,7 +612,7 @@ Entry = TypedDict(
         "energy_kwh": float,
         # Cost of charging it again, dollars.
         "energy_cost_usd": float,
-        # Cost of the flight with or without passengers, beside its energy; dollars.
+        # Cost of the flight without its energy, with or without passengers; dollars.
         "flight_cost_usd": float,
         # Fares less all costs of the flight, dollars.
         "profit_usd": float,

@@ -750,7 +750,7 @@ export interface components {
             energy_kwh: number;
             /**
              * Format: double
-             * @description Cost of the flight with or without passengers, beside its energy; dollars.
+             * @description Cost of the flight without its energy, with or without passengers; dollars.
              */
             flight_cost_usd: number;
             /** @description Where it left. */

@@ -11,7 +11,7 @@ pub(super) struct Hop {
     /// Seconds from take-off until the aircraft is ready again.
     pub(super) block_s: u32,
     pub(super) energy_kwh: f64,
-    /// Cost of the flight beside its energy, dollars.
+    /// Cost of the flight, without its energy, dollars.
     pub(super) flight_cost_usd: f64,
 }
 

@@ -52,7 +52,7 @@ pub(crate) struct Entry {
     energy_kwh: f64,
     /// Cost of charging it again, dollars.
     energy_cost_usd: f64,
-    /// Cost of the flight with or without passengers, beside its energy; dollars.
+    /// Cost of the flight without its energy, with or without passengers; dollars.
     flight_cost_usd: f64,
     /// Fares less all costs of the flight, dollars.
     profit_usd: f64,
