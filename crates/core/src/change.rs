@@ -1,15 +1,23 @@
 //! Networks that differ from another one in some members of its file, for questions such as "and
 //! with 12 more aircraft?".
 
+mod differences;
+mod edit;
+mod kept;
+mod member_path;
+
 use serde::Serialize;
 use serde_json::Value;
 use toml_edit::DocumentMut;
 use toml_edit::ser::ValueSerializer;
 
-use crate::edit::set;
-use crate::member_path::position;
+use self::edit::set;
+use self::member_path::position;
 use crate::parse::shortened;
-use crate::{Error, Network, kept, member_path};
+use crate::{Error, Network};
+
+pub use differences::Difference;
+pub use member_path::split_path;
 
 impl Network {
     /// Returns the network whose file differs from this one's in some members. A path names members

@@ -6,7 +6,13 @@
 //! decides which of them a policy may see, and when. A quiet day has none; all days of `paper` are
 //! quiet.
 
+mod closed_times;
+mod model;
+
 use crate::{AircraftIx, Matrix, Time, VertiportIx};
+
+pub use closed_times::{ClosedSpan, ClosedTimes};
+pub(crate) use model::{DelayModel, DisturbanceModel, RawDisturbanceModel};
 
 /// The disturbances of a day; by default there are none.
 #[derive(Debug, Clone, PartialEq, Default)]

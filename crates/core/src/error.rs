@@ -7,10 +7,9 @@
 
 mod codes;
 
-use std::io;
+use std::{fmt, io};
 
-use crate::FileKind;
-use crate::output_error::OutputError;
+use crate::OutputError;
 
 /// An error in a file, a network, a scenario or a seed.
 #[derive(Debug, thiserror::Error)]
@@ -456,4 +455,22 @@ pub enum Error {
     /// A refusal to write over a file that would be lost (V141 to V144).
     #[error(transparent)]
     Output(#[from] OutputError),
+}
+
+/// A kind of file that a command may expect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileKind {
+    /// One day, as JSON.
+    Scenario,
+    /// A network, as TOML.
+    Network,
+}
+
+impl fmt::Display for FileKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Scenario => "a scenario (JSON)",
+            Self::Network => "a network (TOML)",
+        })
+    }
 }

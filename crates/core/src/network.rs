@@ -4,12 +4,12 @@
 use std::path::{Path, PathBuf};
 
 use crate::demand_model::DemandModel;
-use crate::disturbance_model::{DelayModel, DisturbanceModel};
+use crate::disturbances::{DelayModel, DisturbanceModel};
 use crate::paths::origin;
 use crate::random::to_whole;
 use crate::{
     AircraftType, Error, FeatureScales, Matrix, Operations, Purpose, Scenario, Time, Vertiport,
-    files, nearest, network_file, parse, random_network, random_places,
+    input, nearest, network_file, parse, random_network, random_places,
 };
 
 /// The prefix of the number of a random network.
@@ -57,7 +57,7 @@ impl Network {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let origin = origin(path);
-        let text = files::read_at_most(path, files::LONGEST_NETWORK)?;
+        let text = input::read_at_most(path, input::LONGEST_NETWORK)?;
         let mut network =
             network_file::network(parse::utf8(&text, &origin)?, path.parent(), &origin)?;
         network.files.push(path.to_owned());
@@ -72,7 +72,7 @@ impl Network {
     pub fn findings(path: impl AsRef<Path>) -> Result<Vec<Error>, Error> {
         let path = path.as_ref();
         let origin = origin(path);
-        let text = files::read_at_most(path, files::LONGEST_NETWORK)?;
+        let text = input::read_at_most(path, input::LONGEST_NETWORK)?;
         Ok(network_file::findings(parse::utf8(&text, &origin)?, path.parent(), &origin))
     }
 
@@ -82,7 +82,7 @@ impl Network {
     /// # Errors
     /// The text is longer than 32 MiB or breaks a rule of the format; the message names the member.
     pub fn from_toml(text: &str, origin: &str) -> Result<Self, Error> {
-        files::check_length(text.as_bytes(), files::LONGEST_NETWORK, origin)?;
+        input::check_length(text.as_bytes(), input::LONGEST_NETWORK, origin)?;
         network_file::network(text, None, origin)
     }
 

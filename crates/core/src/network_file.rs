@@ -1,30 +1,37 @@
 //! Reads the network file, TOML of format `vertifleet-network/1`, into a checked [`Network`].
 
+mod corridors;
+mod demand_table;
 mod findings;
+mod market;
+mod scheduled_closures;
+mod sites;
+mod tariffs;
 
 use std::path::Path;
 
 use serde::Deserialize;
 
-use crate::corridors::{RawCorridor, corridors};
+use self::corridors::{RawCorridor, corridors};
+use self::market::RawMarket;
+use self::scheduled_closures::RawScheduledClosure;
+use self::sites::{RawSite, Sites};
+use self::tariffs::{RawTariffs, Tariffs};
 use crate::demand_model::{
     DemandModel, RawDailyDemand, RawEquation1, RawHourlyDemand, RawUniformDemand,
 };
-use crate::disturbance_model::RawDisturbanceModel;
+use crate::disturbances::RawDisturbanceModel;
 use crate::feature_scales::{FeatureScales, RawFeatureScales};
 use crate::limits::{self, entries};
-use crate::market::RawMarket;
 use crate::parse::shortened;
 use crate::raw::{Positions, RawAircraftType, RawOperations, each};
-use crate::scheduled_closures::{self, RawScheduledClosure};
-use crate::sites::{RawSite, Sites};
-use crate::tariffs::{RawTariffs, Tariffs};
 use crate::{
     Aircraft, AircraftType, Day, Disturbances, Error, Matrix, Network, TypeIx, Vertiport,
-    VertiportIx, check, demand_table, files, parse,
+    VertiportIx, check, input, parse,
 };
 
 pub(crate) use findings::findings;
+pub use sites::{EARTH_RADIUS_MI, great_circle_mi};
 
 const FORMAT: &str = "vertifleet-network/1";
 
@@ -85,7 +92,7 @@ pub(crate) fn network(text: &str, folder: Option<&Path>, origin: &str) -> Result
     let vertiports: Vec<&str> = raw.vertiports.iter().map(RawSite::id).collect();
     let table = folder.join(table);
     let text = demand_table::inlined(text, hourly, &table, &vertiports)?;
-    files::check_length(text.as_bytes(), files::LONGEST_NETWORK, origin)?;
+    input::check_length(text.as_bytes(), input::LONGEST_NETWORK, origin)?;
     let mut network = network(&text, None, origin)?;
     network.files.push(table);
     Ok(network)

@@ -5,11 +5,18 @@
 //! distances, stands, seats, speeds, prices, and demand from half to ten times what the fleet could
 //! carry.
 
+mod city;
+mod places;
+
 use std::fmt::Write;
 
-use crate::{Network, Purpose};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
+use crate::{Network, Purpose};
+
+pub use city::random_city;
+pub use places::{RANDOM_PLACES, random_places};
 
 /// Draws a network file and reads it. [`Network::find`] finds the random comparison networks by
 /// `random:NUMBER`.
@@ -124,12 +131,12 @@ fn write_demand(
 }
 
 /// Adds to a text.
-pub(crate) fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
+fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
     text.write_fmt(what).expect("memory takes everything");
 }
 
 /// The random stream of a number; each purpose has streams of its own.
-pub(crate) fn generator(purpose: Purpose, number: u64) -> ChaCha8Rng {
+fn generator(purpose: Purpose, number: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(number);
     random.set_stream(match purpose {
         Purpose::Comparison => 0,

@@ -4,6 +4,8 @@
 //! Whole numbers are read as `f64` on purpose, so that `-1` or `2.5` stands are refused with the
 //! rule that they break and not with a message about types.
 
+mod disturbances;
+
 use std::collections::HashMap;
 
 use serde::Deserialize;
@@ -11,6 +13,8 @@ use serde::Deserialize;
 use crate::limits::{self, Limits};
 use crate::parse::shortened;
 use crate::{Aircraft, AircraftType, Degrees, Error, Operations, Time, Vertiport, check};
+
+pub(crate) use disturbances::{RawClosure, RawOutage, RawRoute, RawTakeoffDelays};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of operations")]

@@ -3,8 +3,9 @@
 
 use std::fmt;
 
-use crate::sites::great_circle_mi;
-use crate::{AircraftType, Code, Degrees, Matrix, Network, Scenario, VertiportIx, limits};
+use crate::{
+    AircraftType, Code, Degrees, Matrix, Network, Scenario, VertiportIx, great_circle_mi, limits,
+};
 
 /// A property of a scenario or a network that is allowed but hardly meant.
 #[derive(Debug, Clone, PartialEq)]

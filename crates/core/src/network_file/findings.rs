@@ -6,9 +6,9 @@
 
 use std::path::Path;
 
+use super::sites::Sites;
 use super::{DemandModels, FORMAT, RawNetwork, fleet, name, network, start_stands, time_zone};
 use crate::raw::Positions;
-use crate::sites::Sites;
 use crate::{Error, parse};
 
 /// The errors that have been found.

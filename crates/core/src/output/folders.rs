@@ -5,10 +5,9 @@ use std::fs::{self, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::files::{UNFINISHED, writing};
-use crate::output_error::OutputError;
+use super::files::{UNFINISHED, writing};
 use crate::paths::{folder_of, origin};
-use crate::{Error, OutputKind};
+use crate::{Error, OutputError, OutputKind};
 
 /// A kind of folder that this program writes, and how to recognise one.
 #[derive(Debug, Clone, Copy)]

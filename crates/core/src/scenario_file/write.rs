@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::limits::number;
 use crate::{
     Closure, Degrees, Disturbances, Error, Matrix, Outage, OutputKind, Route, Scenario,
-    TakeoffDelays, VertiportIx, files, read,
+    TakeoffDelays, VertiportIx, write_atomically,
 };
 
 impl Scenario {
@@ -23,13 +23,13 @@ impl Scenario {
     /// # Errors
     /// [`Error::CannotWrite`]; the former file is still there then.
     pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
-        files::write_atomically(path.as_ref(), self.to_json().as_bytes())
+        write_atomically(path.as_ref(), self.to_json().as_bytes())
     }
 
     /// The text of the scenario file. Reading it gives the same scenario, bit for bit.
     pub fn to_json(&self) -> String {
         let mut members = vec![
-            ("format", text(read::FORMAT)),
+            ("format", text(super::FORMAT)),
             ("name", text(&self.name)),
             ("seed", self.seed.to_string()),
             ("operations", self.operations_json()),

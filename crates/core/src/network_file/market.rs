@@ -18,9 +18,8 @@ use std::collections::HashSet;
 
 use serde::Deserialize;
 
-use crate::raw::{Positions, each};
-use crate::raw_disturbances::RawRoute;
-use crate::tariffs::RawReference;
+use super::tariffs::RawReference;
+use crate::raw::{Positions, RawRoute, each};
 use crate::{Error, Fares, Matrix, VertiportIx, limits};
 
 /// `[market]` of the network file.

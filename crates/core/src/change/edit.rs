@@ -3,7 +3,7 @@
 
 use toml_edit::{Array, ArrayOfTables, InlineTable, Item, Table, TableLike, Value};
 
-use crate::member_path::position;
+use super::member_path::position;
 
 /// Sets the members that a path leads to. The error is the part of the path that leads nowhere.
 pub(crate) fn set(members: &mut dyn TableLike, path: &[&str], value: &Value) -> Result<(), String> {

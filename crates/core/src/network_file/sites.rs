@@ -8,9 +8,9 @@
 
 use serde::Deserialize;
 
+use super::tariffs::SiteCosts;
 use crate::limits::{self, Limits};
 use crate::raw::{chargers, each};
-use crate::tariffs::SiteCosts;
 use crate::{Degrees, Error, Matrix, Vertiport, check};
 
 /// Mean radius of the Earth (IUGG), miles.

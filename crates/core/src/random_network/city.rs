@@ -7,7 +7,7 @@
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use crate::random_network::{generator, put};
+use super::{generator, put};
 use crate::{Network, Purpose};
 
 /// The share of a day's passengers in each hour from 6 on, percent: those of `new-york`.

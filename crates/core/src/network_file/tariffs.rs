@@ -5,8 +5,7 @@ use std::collections::HashSet;
 use serde::Deserialize;
 
 use crate::demand_model::DemandModel;
-use crate::raw::{Positions, each};
-use crate::raw_disturbances::RawRoute;
+use crate::raw::{Positions, RawRoute, each};
 use crate::{Error, Fares, Matrix, VertiportIx, limits};
 
 /// `[tariffs]` of the network file.

@@ -1,18 +1,25 @@
-//! Checks where a command may write: to no file that it reads, to no file twice, and to no file
-//! that others wrote.
+//! How commands write files (`output/files.rs`) and folders (`output/folders.rs`), and where they
+//! may: to no file that they read, to no file twice, and to no file that others wrote.
 //!
 //! All checks come before any work is done. Files are identified by device and inode on Unix, so
 //! that links are seen through, and by their canonical paths elsewhere. Anything but a plain file
 //! (a pipe, a terminal, `/dev/null`) holds nothing that could be lost, and may always be written
 //! to.
 
+mod error;
+mod files;
+mod folders;
+
 use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::output_error::OutputError;
 use crate::paths::{folder_of, leads_somewhere, origin};
+
+pub use error::OutputError;
+pub use files::{block_writes, create_folder, write_atomically};
+pub use folders::{FolderKind, check_folder, replace_folder};
 
 /// A kind of file that this program writes, and how to recognise one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

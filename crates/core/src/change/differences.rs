@@ -3,8 +3,8 @@
 use serde::Serialize;
 use toml::Value;
 
+use super::member_path::quoted;
 use crate::Network;
-use crate::member_path::quoted;
 
 /// A member that two network files say differently.
 #[derive(Debug, Clone, PartialEq, Serialize)]

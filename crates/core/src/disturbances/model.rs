@@ -7,8 +7,7 @@ use serde::Deserialize;
 
 use crate::limits::{self, Limits};
 use crate::random::{rounded_by_chance, to_whole, uniform};
-use crate::raw::{Positions, each};
-use crate::raw_disturbances::RawRoute;
+use crate::raw::{Positions, RawRoute, each};
 use crate::{
     AircraftIx, Closure, Error, Matrix, Operations, Outage, Route, TakeoffDelays, Time,
     VertiportIx, check,

@@ -4,10 +4,11 @@
 use std::fmt::Write;
 use std::ops::RangeInclusive;
 
-use crate::random_network::generator;
-use crate::{Error, Network, Purpose};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
+
+use super::generator;
+use crate::{Error, Network, Purpose};
 
 /// Side of the square that places are drawn from, miles (§V.A).
 const SIDE_MI: f64 = 50.0;

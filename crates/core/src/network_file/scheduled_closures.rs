@@ -4,8 +4,7 @@
 use serde::Deserialize;
 
 use crate::limits::entries;
-use crate::raw::{Positions, each};
-use crate::raw_disturbances::RawRoute;
+use crate::raw::{Positions, RawRoute, each};
 use crate::{Closure, Error, Route, Time, Vertiport, VertiportIx, check};
 
 #[derive(Deserialize)]

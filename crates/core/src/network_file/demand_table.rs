@@ -14,7 +14,7 @@ use csv::ByteRecord;
 use crate::demand_model::RawHourlyDemand;
 use crate::parse::{shortened, without_mark};
 use crate::paths::origin;
-use crate::{Error, Time, files, limits};
+use crate::{Error, Time, input, limits};
 
 const COLUMNS: [&str; 4] = ["period", "from", "to", "passengers"];
 
@@ -26,7 +26,7 @@ pub(crate) fn inlined(
     table: &Path,
     vertiports: &[&str],
 ) -> Result<String, Error> {
-    let csv = files::read_at_most(table, files::LONGEST_TABLE)?;
+    let csv = input::read_at_most(table, input::LONGEST_TABLE)?;
     let reader = Reader {
         csv: without_mark(&csv),
         origin: origin(table),

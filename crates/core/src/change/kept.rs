@@ -4,8 +4,8 @@
 
 use toml_edit::{Array, DocumentMut, Item, Table, Value, value};
 
+use super::edit::whole_numbers;
 use crate::Network;
-use crate::edit::whole_numbers;
 
 /// The members of `[tariffs]` that fares follow from. The level of all fares is not among them: it
 /// is 1 at the reference.

@@ -4,8 +4,7 @@
 use serde::Deserialize;
 
 use crate::limits::{self, number};
-use crate::raw::{Positions, each};
-use crate::raw_disturbances::RawRoute;
+use crate::raw::{Positions, RawRoute, each};
 use crate::{Error, Matrix, Route};
 
 /// How much shorter than the straight line a corridor may be, as a share: lengths are rounded, and

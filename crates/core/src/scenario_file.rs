@@ -1,20 +1,24 @@
 //! Reads the scenario file, JSON of format `vertifleet-scenario/1`, into a checked [`Scenario`].
 
+mod write;
+
 use std::path::Path;
 
 use serde::Deserialize;
 
 use crate::limits::{self, entries};
 use crate::paths::origin;
-use crate::raw::{Positions, RawAircraftType, RawOperations, RawVertiport, each};
-use crate::raw_disturbances::{RawClosure, RawOutage, RawRoute, RawTakeoffDelays};
+use crate::raw::{
+    Positions, RawAircraftType, RawClosure, RawOperations, RawOutage, RawRoute, RawTakeoffDelays,
+    RawVertiport, each,
+};
 use crate::{
     Aircraft, Day, Disturbances, Error, Fares, Matrix, Scenario, Time, TypeIx, VertiportIx, check,
-    files, parse,
+    input, parse,
 };
 
 /// The format and version that the file's `format` member names.
-pub(crate) const FORMAT: &str = "vertifleet-scenario/1";
+const FORMAT: &str = "vertifleet-scenario/1";
 
 impl Scenario {
     /// Reads and checks a scenario file.
@@ -24,7 +28,7 @@ impl Scenario {
     /// names the member.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let text = files::read_at_most(path, files::LONGEST_SCENARIO)?;
+        let text = input::read_at_most(path, input::LONGEST_SCENARIO)?;
         Self::from_json(&text, &origin(path))
     }
 
@@ -33,7 +37,7 @@ impl Scenario {
     /// # Errors
     /// The text is longer than 64 MiB or breaks a rule of the format; the message names the member.
     pub fn from_json(text: &[u8], origin: &str) -> Result<Self, Error> {
-        files::check_length(text, files::LONGEST_SCENARIO, origin)?;
+        input::check_length(text, input::LONGEST_SCENARIO, origin)?;
         let text = parse::without_mark(text);
         parse::is_no_network(text, origin)?;
         let raw: RawScenario = parse::json(text, FORMAT, origin)?;
