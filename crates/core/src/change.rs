@@ -14,7 +14,7 @@ use toml_edit::ser::ValueSerializer;
 use self::edit::set;
 use self::member_path::position;
 use crate::parse::shortened;
-use crate::{Error, Network};
+use crate::{Error, FormatError, Network};
 
 pub use differences::Difference;
 pub use member_path::split_path;
@@ -31,7 +31,7 @@ impl Network {
     /// too. The changed file has to obey the format like any other.
     ///
     /// # Errors
-    /// [`Error::NoSuchMember`] if a path leads nowhere, [`Error::NotParsed`] if a value has no form
+    /// [`Error::NoSuchMember`] if a path leads nowhere, [`FormatError::NotParsed`] if a value has no form
     /// in TOML, and the errors of [`from_toml`](Self::from_toml).
     pub fn changed<'a>(
         &self,
@@ -42,13 +42,10 @@ impl Network {
         for (path, value) in changes {
             let nowhere =
                 |part: &str| Error::NoSuchMember { path: path.clone(), part: shortened(part, 64) };
-            let value =
-                value.serialize(ValueSerializer::new()).map_err(|error| Error::NotParsed {
-                    origin: origin.clone(),
-                    line: 1,
-                    column: 1,
-                    problem: format!("{path}: {error}"),
-                })?;
+            let value = value.serialize(ValueSerializer::new()).map_err(|error| {
+                let problem = format!("{path}: {error}");
+                FormatError::NotParsed { line: 1, column: 1, problem }.in_file(&origin)
+            })?;
             let names = member_path::names(path);
             let parts: Vec<&str> = names.iter().map(String::as_str).collect();
             set(file.as_table_mut(), &parts, &value).map_err(|part| nowhere(&part))?;

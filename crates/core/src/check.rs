@@ -5,7 +5,7 @@
 use std::collections::HashSet;
 
 use crate::limits::{self, Limits, entries};
-use crate::{Day, Error, Matrix, Scenario, Time};
+use crate::{Day, Error, FormatError, Matrix, Scenario, Time};
 
 mod beyond;
 
@@ -15,83 +15,75 @@ impl Day {
     /// # Errors
     /// The first rule that is broken, with its member and value.
     pub fn check(self, origin: &str) -> Result<Scenario, Error> {
-        Check { origin, day: &self }.everything()?;
+        self.checked().map_err(|error| error.in_file(origin))
+    }
+
+    /// Checks every rule.
+    pub(crate) fn checked(self) -> Result<Scenario, FormatError> {
+        Check { day: &self }.everything()?;
         Ok(Scenario::checked(self))
     }
 }
 
 /// Refuses an empty list and one longer than `most`.
-pub(crate) fn entry_count(
-    origin: &str,
-    member: &str,
-    found: usize,
-    most: usize,
-) -> Result<(), Error> {
+pub(crate) fn entry_count(member: &str, found: usize, most: usize) -> Result<(), FormatError> {
     if (1..=most).contains(&found) {
         return Ok(());
     }
-    Err(Error::EntryCount { origin: origin.to_owned(), member: member.to_owned(), most, found })
+    Err(FormatError::EntryCount { member: member.to_owned(), most, found })
 }
 
 /// Refuses more cells of demand than a day may have.
-pub(crate) fn demand_cells(origin: &str, vertiports: usize, periods: usize) -> Result<(), Error> {
+pub(crate) fn demand_cells(vertiports: usize, periods: usize) -> Result<(), FormatError> {
     let cells = vertiports * vertiports * periods;
-    entry_count(origin, "demand (vertiports x vertiports x periods)", cells, entries::DEMAND)
+    entry_count("demand (vertiports x vertiports x periods)", cells, entries::DEMAND)
 }
 
 /// Refuses a name that is empty, too long, or cannot be printed on one line.
-pub(crate) fn id(origin: &str, member: impl FnOnce() -> String, id: &str) -> Result<(), Error> {
+pub(crate) fn id(member: impl FnOnce() -> String, id: &str) -> Result<(), FormatError> {
     const RULE: &str = "1 to 64 characters without control characters";
     if (1..=64).contains(&id.chars().count()) && !id.chars().any(char::is_control) {
         return Ok(());
     }
     let found = id.chars().take(64).collect();
-    Err(Error::BadId { origin: origin.to_owned(), member: member(), rule: RULE, found })
+    Err(FormatError::BadId { member: member(), rule: RULE, found })
 }
 
 /// Refuses ids that are not well formed or not unique; `list` is the list's name in the file,
 /// `entry` the word for one of its entries.
 pub(crate) fn ids<'a>(
-    origin: &str,
     list: &str,
     entry: &str,
     ids: impl Iterator<Item = &'a String>,
-) -> Result<(), Error> {
+) -> Result<(), FormatError> {
     let mut seen = HashSet::new();
     for (at, one) in ids.enumerate() {
-        id(origin, || format!("{list}[{at}]: id"), one)?;
+        id(|| format!("{list}[{at}]: id"), one)?;
         if !seen.insert(one) {
             let member = format!("{list}[{at}]: {entry} {one:?}");
-            return Err(Error::DuplicateId { origin: origin.to_owned(), member });
+            return Err(FormatError::DuplicateId { member });
         }
     }
     Ok(())
 }
 
 /// Refuses a span that ends before it starts, or later than any day.
-pub(crate) fn span(
-    start: Time,
-    end: Time,
-    origin: &str,
-    member: impl Fn() -> String,
-) -> Result<(), Error> {
+pub(crate) fn span(start: Time, end: Time, member: impl Fn() -> String) -> Result<(), FormatError> {
     if start > end {
-        return Err(Error::StartAfterEnd {
-            origin: origin.to_owned(),
+        return Err(FormatError::StartAfterEnd {
             member: member(),
             start: start.to_string(),
             end: end.to_string(),
         });
     }
-    not_too_late(end, origin, || format!("{}: end", member()))
+    not_too_late(end, || format!("{}: end", member()))
 }
 
-fn not_too_late(time: Time, origin: &str, member: impl FnOnce() -> String) -> Result<(), Error> {
+fn not_too_late(time: Time, member: impl FnOnce() -> String) -> Result<(), FormatError> {
     if time <= limits::LATEST {
         return Ok(());
     }
-    Err(Error::OutOfRange {
-        origin: origin.to_owned(),
+    Err(FormatError::OutOfRange {
         member: member(),
         rule: format!("at most {}", limits::LATEST),
         found: time.to_string(),
@@ -101,13 +93,12 @@ fn not_too_late(time: Time, origin: &str, member: impl FnOnce() -> String) -> Re
 
 /// A day that is being checked. Each function checks one family of rules.
 struct Check<'a> {
-    origin: &'a str,
     day: &'a Day,
 }
 
 impl Check<'_> {
-    fn everything(&self) -> Result<(), Error> {
-        id(self.origin, || "name".to_owned(), &self.day.name)?;
+    fn everything(&self) -> Result<(), FormatError> {
+        id(|| "name".to_owned(), &self.day.name)?;
         self.seed()?;
         self.operations()?;
         self.periods()?;
@@ -122,23 +113,19 @@ impl Check<'_> {
         self.disturbances()
     }
 
-    fn seed(&self) -> Result<(), Error> {
+    fn seed(&self) -> Result<(), FormatError> {
         if self.day.seed < limits::SEED_LIMIT {
             return Ok(());
         }
-        Err(Error::SeedOutOfRange {
-            member: format!("{}: seed", self.origin),
-            limit: limits::SEED_LIMIT,
-            found: self.day.seed.to_string(),
-        })
+        Err(FormatError::SeedOutOfRange { found: self.day.seed.to_string() })
     }
 
-    fn operations(&self) -> Result<(), Error> {
+    fn operations(&self) -> Result<(), FormatError> {
         let operations = &self.day.operations;
         let number = |value: u32, limits: &Limits, member: &str| {
-            limits.check(f64::from(value), self.origin, || format!("operations: {member}"))
+            limits.check(f64::from(value), || format!("operations: {member}"))
         };
-        span(operations.start, operations.end, self.origin, || "operations".to_owned())?;
+        span(operations.start, operations.end, || "operations".to_owned())?;
         number(operations.takeoff_s, &limits::PHASE_S, "takeoff_s")?;
         number(operations.landing_s, &limits::PHASE_S, "landing_s")?;
         number(
@@ -149,12 +136,11 @@ impl Check<'_> {
         number(operations.hold_s, &limits::HOLD_S, "hold_s")
     }
 
-    fn periods(&self) -> Result<(), Error> {
+    fn periods(&self) -> Result<(), FormatError> {
         let periods = &self.day.periods;
-        entry_count(self.origin, "periods", periods.len(), entries::PERIODS)?;
+        entry_count("periods", periods.len(), entries::PERIODS)?;
         let start = self.day.operations.start;
-        let order = |at: usize, rule: String| Error::PeriodOrder {
-            origin: self.origin.to_owned(),
+        let order = |at: usize, rule: String| FormatError::PeriodOrder {
             member: format!("periods[{at}]"),
             rule,
             found: periods[at].to_string(),
@@ -166,20 +152,19 @@ impl Check<'_> {
             return Err(order(at + 1, format!("after the period before it, {}", periods[at])));
         }
         let last = periods.len() - 1;
-        not_too_late(periods[last], self.origin, || format!("periods[{last}]"))
+        not_too_late(periods[last], || format!("periods[{last}]"))
     }
 
     /// Checks that passengers who wait into the next period have left when that one ends.
-    fn passenger_wait(&self) -> Result<(), Error> {
+    fn passenger_wait(&self) -> Result<(), FormatError> {
         let wait_s = self.day.operations.passenger_wait_s;
         let member = || "operations: passenger_wait_s".to_owned();
-        limits::PASSENGER_WAIT_S.check(f64::from(wait_s), self.origin, member)?;
+        limits::PASSENGER_WAIT_S.check(f64::from(wait_s), member)?;
         let lengths_s = self.day.periods.windows(2).map(|pair| pair[1].since(pair[0]));
         let Some(shortest_s) = lengths_s.min().filter(|&shortest_s| wait_s > shortest_s) else {
             return Ok(());
         };
-        Err(Error::OutOfRange {
-            origin: self.origin.to_owned(),
+        Err(FormatError::OutOfRange {
             member: member(),
             rule: format!(
                 "at most {shortest_s}, the length of the shortest demand period that another one follows"
@@ -189,19 +174,13 @@ impl Check<'_> {
         })
     }
 
-    fn vertiports(&self) -> Result<(), Error> {
+    fn vertiports(&self) -> Result<(), FormatError> {
         let vertiports = &self.day.vertiports;
-        entry_count(self.origin, "vertiports", vertiports.len(), entries::VERTIPORTS)?;
-        ids(
-            self.origin,
-            "vertiports",
-            "vertiport",
-            vertiports.iter().map(|vertiport| &vertiport.id),
-        )?;
+        entry_count("vertiports", vertiports.len(), entries::VERTIPORTS)?;
+        ids("vertiports", "vertiport", vertiports.iter().map(|vertiport| &vertiport.id))?;
         for vertiport in vertiports {
             let number = |value: f64, limits: &Limits, member: &str| {
-                limits
-                    .check(value, self.origin, || format!("vertiport {:?}: {member}", vertiport.id))
+                limits.check(value, || format!("vertiport {:?}: {member}", vertiport.id))
             };
             number(vertiport.x_mi, &limits::POSITION_MI, "x_mi")?;
             number(vertiport.y_mi, &limits::POSITION_MI, "y_mi")?;
@@ -219,14 +198,13 @@ impl Check<'_> {
         Ok(())
     }
 
-    fn aircraft_types(&self) -> Result<(), Error> {
+    fn aircraft_types(&self) -> Result<(), FormatError> {
         let kinds = &self.day.aircraft_types;
-        entry_count(self.origin, "aircraft_types", kinds.len(), entries::AIRCRAFT_TYPES)?;
-        ids(self.origin, "aircraft_types", "aircraft type", kinds.iter().map(|kind| &kind.id))?;
+        entry_count("aircraft_types", kinds.len(), entries::AIRCRAFT_TYPES)?;
+        ids("aircraft_types", "aircraft type", kinds.iter().map(|kind| &kind.id))?;
         for kind in kinds {
             let number = |value: f64, limits: &Limits, member: &str| {
-                limits
-                    .check(value, self.origin, || format!("aircraft type {:?}: {member}", kind.id))
+                limits.check(value, || format!("aircraft type {:?}: {member}", kind.id))
             };
             number(kind.seats.into(), &limits::SEATS, "seats")?;
             number(kind.speed_mph, &limits::SPEED_MPH, "speed_mph")?;
@@ -242,14 +220,13 @@ impl Check<'_> {
         Ok(())
     }
 
-    fn aircraft(&self) -> Result<(), Error> {
+    fn aircraft(&self) -> Result<(), FormatError> {
         let day = self.day;
-        entry_count(self.origin, "aircraft", day.aircraft.len(), entries::AIRCRAFT)?;
-        ids(self.origin, "aircraft", "aircraft", day.aircraft.iter().map(|aircraft| &aircraft.id))?;
+        entry_count("aircraft", day.aircraft.len(), entries::AIRCRAFT)?;
+        ids("aircraft", "aircraft", day.aircraft.iter().map(|aircraft| &aircraft.id))?;
         let mut standing = vec![0; day.vertiports.len()];
         for aircraft in &day.aircraft {
-            let unknown = |member: &str, index: usize, list| Error::UnknownId {
-                origin: self.origin.to_owned(),
+            let unknown = |member: &str, index: usize, list| FormatError::UnknownId {
                 member: format!("aircraft {:?}: {member}", aircraft.id),
                 found: format!("#{index}"),
                 list,
@@ -264,8 +241,7 @@ impl Check<'_> {
         }
         for (vertiport, &aircraft) in day.vertiports.iter().zip(&standing) {
             if aircraft > usize::from(vertiport.stands) {
-                return Err(Error::StandsExceeded {
-                    origin: self.origin.to_owned(),
+                return Err(FormatError::StandsExceeded {
                     vertiport: vertiport.id.clone(),
                     stands: vertiport.stands,
                     aircraft,
@@ -275,14 +251,13 @@ impl Check<'_> {
         Ok(())
     }
 
-    fn distances(&self) -> Result<(), Error> {
+    fn distances(&self) -> Result<(), FormatError> {
         let distances = &self.day.distance_mi;
         self.square(distances, || "distance_mi".to_owned())?;
-        self.cells(distances, &limits::DISTANCE_MI, "distance_mi")?;
+        cells(distances, &limits::DISTANCE_MI, "distance_mi")?;
         for (at, row) in distances.rows().enumerate() {
             if row[at] != 0.0 {
-                return Err(Error::OutOfRange {
-                    origin: self.origin.to_owned(),
+                return Err(FormatError::OutOfRange {
                     member: format!("distance_mi[{at}][{at}]"),
                     rule: "0".to_owned(),
                     found: limits::number(row[at]),
@@ -293,7 +268,7 @@ impl Check<'_> {
         Ok(())
     }
 
-    fn money(&self) -> Result<(), Error> {
+    fn money(&self) -> Result<(), FormatError> {
         let day = self.day;
         let fares = day.fare_usd.tables();
         let tables = fares.clone().count();
@@ -303,39 +278,38 @@ impl Check<'_> {
         for (period, table) in fares.enumerate() {
             let member = if tables == 1 { "fare".to_owned() } else { format!("fare[{period}]") };
             self.square(table, || member.clone())?;
-            self.cells(table, &limits::MONEY_USD, &member)?;
+            cells(table, &limits::MONEY_USD, &member)?;
         }
         self.square(&day.passenger_cost_usd, || "passenger_cost".to_owned())?;
-        self.cells(&day.passenger_cost_usd, &limits::MONEY_USD, "passenger_cost")?;
+        cells(&day.passenger_cost_usd, &limits::MONEY_USD, "passenger_cost")?;
         self.square(&day.flight_cost_usd, || "flight_cost".to_owned())?;
-        self.cells(&day.flight_cost_usd, &limits::MONEY_USD, "flight_cost")?;
+        cells(&day.flight_cost_usd, &limits::MONEY_USD, "flight_cost")?;
         let member = || "aircraft_cost".to_owned();
-        limits::MONEY_USD.check(day.aircraft_cost_usd, self.origin, member)?;
+        limits::MONEY_USD.check(day.aircraft_cost_usd, member)?;
         self.per_period("energy_price", day.energy_price_usd.len())?;
         for (at, &price) in day.energy_price_usd.iter().enumerate() {
-            limits::ENERGY_PRICE_USD.check(price, self.origin, || format!("energy_price[{at}]"))?;
+            limits::ENERGY_PRICE_USD.check(price, || format!("energy_price[{at}]"))?;
         }
         Ok(())
     }
 
-    fn demand(&self) -> Result<(), Error> {
+    fn demand(&self) -> Result<(), FormatError> {
         self.passengers(&self.day.demand, "demand")
     }
 
     /// Checks that there is a table of passengers for each period, and that each has 0 on the
     /// diagonal.
-    fn passengers(&self, tables: &[Matrix<u32>], member: &str) -> Result<(), Error> {
+    fn passengers(&self, tables: &[Matrix<u32>], member: &str) -> Result<(), FormatError> {
         self.per_period(member, tables.len())?;
-        demand_cells(self.origin, self.day.vertiports.len(), self.day.periods.len())?;
+        demand_cells(self.day.vertiports.len(), self.day.periods.len())?;
         for (period, table) in tables.iter().enumerate() {
             self.square(table, || format!("{member}[{period}]"))?;
             for (from, row) in table.rows().enumerate() {
                 for (to, &passengers) in row.iter().enumerate() {
                     let member = || format!("{member}[{period}][{from}][{to}]");
-                    limits::PASSENGERS.check(passengers.into(), self.origin, member)?;
+                    limits::PASSENGERS.check(passengers.into(), member)?;
                     if from == to && passengers != 0 {
-                        return Err(Error::SelfDemand {
-                            origin: self.origin.to_owned(),
+                        return Err(FormatError::SelfDemand {
                             member: member(),
                             found: passengers,
                         });
@@ -346,38 +320,41 @@ impl Check<'_> {
         Ok(())
     }
 
-    fn square<T>(&self, table: &Matrix<T>, member: impl FnOnce() -> String) -> Result<(), Error> {
+    fn square<T>(
+        &self,
+        table: &Matrix<T>,
+        member: impl FnOnce() -> String,
+    ) -> Result<(), FormatError> {
         let size = self.day.vertiports.len();
         if table.size() == size {
             return Ok(());
         }
-        Err(Error::WrongShape {
-            origin: self.origin.to_owned(),
+        Err(FormatError::WrongShape {
             member: member(),
             expected: format!("a row and a column for each of {size} vertiports"),
             found: table.size(),
         })
     }
 
-    fn per_period(&self, member: &str, found: usize) -> Result<(), Error> {
+    fn per_period(&self, member: &str, found: usize) -> Result<(), FormatError> {
         let periods = self.day.periods.len();
         if found == periods {
             return Ok(());
         }
-        Err(Error::WrongShape {
-            origin: self.origin.to_owned(),
+        Err(FormatError::WrongShape {
             member: member.to_owned(),
             expected: format!("an entry for each of {periods} periods"),
             found,
         })
     }
+}
 
-    fn cells(&self, table: &Matrix<f64>, limits: &Limits, member: &str) -> Result<(), Error> {
-        for (from, row) in table.rows().enumerate() {
-            for (to, &value) in row.iter().enumerate() {
-                limits.check(value, self.origin, || format!("{member}[{from}][{to}]"))?;
-            }
+/// Checks every cell of a table.
+fn cells(table: &Matrix<f64>, limits: &Limits, member: &str) -> Result<(), FormatError> {
+    for (from, row) in table.rows().enumerate() {
+        for (to, &value) in row.iter().enumerate() {
+            limits.check(value, || format!("{member}[{from}][{to}]"))?;
         }
-        Ok(())
     }
+    Ok(())
 }

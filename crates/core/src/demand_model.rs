@@ -18,7 +18,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use crate::limits::entries;
 use crate::random::to_whole;
-use crate::{Error, Matrix, Time, VertiportIx, check};
+use crate::{FormatError, Matrix, Time, VertiportIx, check};
 
 pub(crate) use daily::RawDailyDemand;
 pub(crate) use equation_1::RawEquation1;
@@ -121,12 +121,7 @@ impl Level {
 
 /// Refuses an empty list of periods, too many periods, and too many cells of demand. The order of
 /// the periods is checked with each day.
-fn check_periods(
-    periods: &[Time],
-    member: &str,
-    vertiports: usize,
-    origin: &str,
-) -> Result<(), Error> {
-    check::entry_count(origin, &format!("{member}: periods"), periods.len(), entries::PERIODS)?;
-    check::demand_cells(origin, vertiports, periods.len())
+fn check_periods(periods: &[Time], member: &str, vertiports: usize) -> Result<(), FormatError> {
+    check::entry_count(&format!("{member}: periods"), periods.len(), entries::PERIODS)?;
+    check::demand_cells(vertiports, periods.len())
 }

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::scenario::Day;
-use crate::{AircraftType, Error, Matrix, limits};
+use crate::{AircraftType, Error, FormatError, Matrix, limits};
 
 /// The size that each quantity typically has in a network; a feature is the quantity divided by it.
 /// All are above 0.
@@ -51,26 +51,6 @@ impl FeatureScales {
             power_kw: mean(types.iter().map(power_kw)),
         }
     }
-
-    /// Checks that every scale is above 0 and finite; `origin` names the file in messages.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for the first scale that is not.
-    pub fn check(self, origin: &str) -> Result<Self, Error> {
-        for (member, value) in [
-            ("stands", self.stands),
-            ("passengers", self.passengers),
-            ("fare_usd", self.fare_usd),
-            ("passenger_cost_usd", self.passenger_cost_usd),
-            ("energy_price_usd", self.energy_price_usd),
-            ("battery_kwh", self.battery_kwh),
-            ("power_kw", self.power_kw),
-        ] {
-            let member = || format!("feature_scales: {member}");
-            limits::FEATURE_SCALE.check(value, origin, member)?;
-        }
-        Ok(self)
-    }
 }
 
 /// The mean of some numbers, or 1 if it is not above 0.
@@ -93,26 +73,22 @@ pub(crate) struct RawFeatureScales {
 }
 
 impl RawFeatureScales {
-    pub(crate) fn check(self, origin: &str) -> Result<FeatureScales, Error> {
-        let Self {
-            stands,
-            passengers,
-            fare_usd,
-            passenger_cost_usd,
-            energy_price_usd,
-            battery_kwh,
-            power_kw,
-        } = self;
-        let scales = FeatureScales {
-            stands,
-            passengers,
-            fare_usd,
-            passenger_cost_usd,
-            energy_price_usd,
-            battery_kwh,
-            power_kw,
+    /// Checks that every scale is above 0 and finite.
+    pub(crate) fn check(self) -> Result<FeatureScales, FormatError> {
+        let number = |value, member: &str| {
+            let checked =
+                limits::FEATURE_SCALE.check(value, || format!("feature_scales: {member}"));
+            checked.map(|()| value)
         };
-        scales.check(origin)
+        Ok(FeatureScales {
+            stands: number(self.stands, "stands")?,
+            passengers: number(self.passengers, "passengers")?,
+            fare_usd: number(self.fare_usd, "fare_usd")?,
+            passenger_cost_usd: number(self.passenger_cost_usd, "passenger_cost_usd")?,
+            energy_price_usd: number(self.energy_price_usd, "energy_price_usd")?,
+            battery_kwh: number(self.battery_kwh, "battery_kwh")?,
+            power_kw: number(self.power_kw, "power_kw")?,
+        })
     }
 }
 
@@ -120,7 +96,7 @@ impl TryFrom<RawFeatureScales> for FeatureScales {
     type Error = Error;
 
     fn try_from(raw: RawFeatureScales) -> Result<Self, Error> {
-        raw.check("model")
+        raw.check().map_err(|error| error.in_file("model"))
     }
 }
 

@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use crate::Error;
 use crate::paths::origin;
+use crate::{Error, FormatError};
 
 /// The longest scenario file that is read. Every scenario that obeys the rules is shorter when
 /// written.
@@ -20,21 +20,21 @@ pub(crate) const LONGEST_TABLE: u64 = 16 << 20;
 /// Reads a whole file of at most `longest` bytes.
 ///
 /// # Errors
-/// [`Error::CannotRead`] or [`Error::FileTooLarge`].
+/// [`Error::CannotRead`] or [`FormatError::FileTooLarge`].
 pub fn read_at_most(path: &Path, longest: u64) -> Result<Vec<u8>, Error> {
     let cannot = |cause| Error::CannotRead { origin: origin(path), cause };
     let mut text = Vec::new();
     // Reading one byte more than allowed tells a file that is too long from one that just fits,
     // even where the length is not known beforehand (a pipe).
     File::open(path).map_err(cannot)?.take(longest + 1).read_to_end(&mut text).map_err(cannot)?;
-    check_length(&text, longest, &origin(path))?;
+    check_length(&text, longest).map_err(|error| error.in_file(&origin(path)))?;
     Ok(text)
 }
 
 /// Refuses a text of more than `longest` bytes.
-pub(crate) fn check_length(text: &[u8], longest: u64, origin: &str) -> Result<(), Error> {
+pub(crate) fn check_length(text: &[u8], longest: u64) -> Result<(), FormatError> {
     if text.len() as u64 > longest {
-        return Err(Error::FileTooLarge { origin: origin.to_owned(), limit: longest });
+        return Err(FormatError::FileTooLarge { limit: longest });
     }
     Ok(())
 }

@@ -56,7 +56,7 @@ pub use code::{Code, Coded, Exit};
 pub use disturbances::{
     ClosedSpan, ClosedTimes, Closure, Disturbances, Outage, Route, TakeoffDelays,
 };
-pub use error::{Error, FileKind};
+pub use error::{Error, FileKind, FormatError};
 pub use fares::Fares;
 pub use feature_scales::FeatureScales;
 pub use input::read_at_most;

@@ -6,7 +6,7 @@
 
 use std::fmt::Debug;
 
-use crate::{Error, Time};
+use crate::{FormatError, Time};
 
 /// The values that a number may take.
 #[derive(Debug, Clone, Copy)]
@@ -40,12 +40,10 @@ impl Limits {
     pub(crate) fn check(
         &self,
         value: f64,
-        origin: &str,
         member: impl FnOnce() -> String,
-    ) -> Result<(), Error> {
+    ) -> Result<(), FormatError> {
         let Some(rule) = self.broken(value) else { return Ok(()) };
-        Err(Error::OutOfRange {
-            origin: origin.to_owned(),
+        Err(FormatError::OutOfRange {
             member: member(),
             rule,
             found: number(value),
@@ -62,11 +60,10 @@ impl Limits {
     pub(crate) fn whole_number<T: TryFrom<u32, Error: Debug>>(
         &self,
         value: f64,
-        origin: &str,
         member: impl FnOnce() -> String,
-    ) -> Result<T, Error> {
+    ) -> Result<T, FormatError> {
         debug_assert!(self.whole, "limits of a whole number");
-        self.check(value, origin, member)?;
+        self.check(value, member)?;
         Ok(T::try_from(value as u32).expect("the type holds every number within the limits"))
     }
 

@@ -58,8 +58,8 @@ impl Network {
         let path = path.as_ref();
         let origin = origin(path);
         let text = input::read_at_most(path, input::LONGEST_NETWORK)?;
-        let mut network =
-            network_file::network(parse::utf8(&text, &origin)?, path.parent(), &origin)?;
+        let text = parse::utf8(&text).map_err(|error| error.in_file(&origin))?;
+        let mut network = network_file::network(text, path.parent(), &origin)?;
         network.files.push(path.to_owned());
         Ok(network)
     }
@@ -73,7 +73,8 @@ impl Network {
         let path = path.as_ref();
         let origin = origin(path);
         let text = input::read_at_most(path, input::LONGEST_NETWORK)?;
-        Ok(network_file::findings(parse::utf8(&text, &origin)?, path.parent(), &origin))
+        let text = parse::utf8(&text).map_err(|error| error.in_file(&origin))?;
+        Ok(network_file::findings(text, path.parent(), &origin))
     }
 
     /// Reads and checks the text of a network file, which must not name a table beside it. `origin`
@@ -82,7 +83,8 @@ impl Network {
     /// # Errors
     /// The text is longer than 32 MiB or breaks a rule of the format; the message names the member.
     pub fn from_toml(text: &str, origin: &str) -> Result<Self, Error> {
-        input::check_length(text.as_bytes(), input::LONGEST_NETWORK, origin)?;
+        input::check_length(text.as_bytes(), input::LONGEST_NETWORK)
+            .map_err(|error| error.in_file(origin))?;
         network_file::network(text, None, origin)
     }
 

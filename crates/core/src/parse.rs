@@ -4,7 +4,7 @@
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use crate::{Error, FileKind};
+use crate::{FileKind, FormatError};
 
 /// The member that every file of ours has. Other members may be anything until the format is known.
 #[derive(Deserialize)]
@@ -17,22 +17,20 @@ struct Header {
 pub(crate) fn json<T: DeserializeOwned>(
     text: &[u8],
     format: &'static str,
-    origin: &str,
-) -> Result<T, Error> {
-    let header: Header = json_value(text, origin)?;
-    check_format(&header, format, origin)?;
-    json_value(text, origin)
+) -> Result<T, FormatError> {
+    let header: Header = json_value(text)?;
+    check_format(&header, format)?;
+    json_value(text)
 }
 
 /// Reads TOML that states this format.
 pub(crate) fn toml<T: DeserializeOwned>(
     text: &str,
     format: &'static str,
-    origin: &str,
-) -> Result<T, Error> {
-    let header: Header = toml_value(text, origin)?;
-    check_format(&header, format, origin)?;
-    toml_value(text, origin)
+) -> Result<T, FormatError> {
+    let header: Header = toml_value(text)?;
+    check_format(&header, format)?;
+    toml_value(text)
 }
 
 /// The byte order mark, which some programs write at the start of UTF-8.
@@ -44,7 +42,7 @@ pub(crate) fn without_mark(text: &[u8]) -> &[u8] {
 }
 
 /// Refuses a network file where a scenario is expected. The text of a scenario can only be JSON.
-pub(crate) fn is_no_network(text: &[u8], origin: &str) -> Result<(), Error> {
+pub(crate) fn is_no_network(text: &[u8]) -> Result<(), FormatError> {
     let says_so = |line: &[u8]| {
         let value = line.trim_ascii_start().strip_prefix(b"format").map(<[u8]>::trim_ascii_start);
         let value = value.and_then(|value| value.strip_prefix(b"=")).map(<[u8]>::trim_ascii_start);
@@ -55,26 +53,26 @@ pub(crate) fn is_no_network(text: &[u8], origin: &str) -> Result<(), Error> {
         return Ok(());
     }
     let (found, expected) = ("a network file (TOML)", FileKind::Scenario);
-    Err(Error::WrongKind { origin: origin.to_owned(), found, expected })
+    Err(FormatError::WrongKind { found, expected })
 }
 
 /// Refuses JSON where a network is expected. No TOML begins with a brace.
-pub(crate) fn is_no_json(text: &str, origin: &str) -> Result<(), Error> {
+pub(crate) fn is_no_json(text: &str) -> Result<(), FormatError> {
     if !text.trim_ascii_start().starts_with('{') {
         return Ok(());
     }
     let says_so = text.contains("\"vertifleet-scenario/");
     let found = if says_so { "a scenario file (JSON)" } else { "JSON" };
     let expected = FileKind::Network;
-    Err(Error::WrongKind { origin: origin.to_owned(), found, expected })
+    Err(FormatError::WrongKind { found, expected })
 }
 
 /// The text of a TOML file, which must be UTF-8.
-pub(crate) fn utf8<'a>(text: &'a [u8], origin: &str) -> Result<&'a str, Error> {
+pub(crate) fn utf8(text: &[u8]) -> Result<&str, FormatError> {
     str::from_utf8(text).map_err(|error| {
         let (line, column) = line_and_column(text, error.valid_up_to());
         let problem = "the text is not UTF-8".to_owned();
-        Error::NotParsed { origin: origin.to_owned(), line, column, problem }
+        FormatError::NotParsed { line, column, problem }
     })
 }
 
@@ -86,24 +84,21 @@ pub(crate) fn shortened(text: &str, most: usize) -> String {
     }
 }
 
-fn check_format(header: &Header, expected: &'static str, origin: &str) -> Result<(), Error> {
-    let origin = origin.to_owned();
+fn check_format(header: &Header, expected: &'static str) -> Result<(), FormatError> {
     match &header.format {
         Some(format) if format == expected => Ok(()),
-        Some(format) => {
-            Err(Error::UnknownFormat { origin, expected, found: shortened(format, 64) })
-        }
-        None => Err(Error::NoFormat { origin, expected }),
+        Some(format) => Err(FormatError::UnknownFormat { expected, found: shortened(format, 64) }),
+        None => Err(FormatError::NoFormat { expected }),
     }
 }
 
-fn json_value<T: DeserializeOwned>(text: &[u8], origin: &str) -> Result<T, Error> {
+fn json_value<T: DeserializeOwned>(text: &[u8]) -> Result<T, FormatError> {
     let refuse = |error: &serde_json::Error, path: &str| {
         let (line, column) = (error.line(), error.column().max(1));
         let message = error.to_string();
         let position = format!(" at line {line} column {}", error.column());
         let problem = message.strip_suffix(&position).unwrap_or(&message);
-        let place = Place { origin, line, column };
+        let place = Place { line, column };
         // `serde_json` reports a number that no `f64` holds as a syntax error, but it belongs to a
         // member that can be named.
         if error.is_data() || problem == "number out of range" {
@@ -119,11 +114,11 @@ fn json_value<T: DeserializeOwned>(text: &[u8], origin: &str) -> Result<T, Error
     Ok(value)
 }
 
-fn toml_value<T: DeserializeOwned>(text: &str, origin: &str) -> Result<T, Error> {
+fn toml_value<T: DeserializeOwned>(text: &str) -> Result<T, FormatError> {
     let place = |error: &toml::de::Error| {
         let start = error.span().map_or(0, |span| span.start);
         let (line, column) = line_and_column(text.as_bytes(), start);
-        Place { origin, line, column }
+        Place { line, column }
     };
     let deserializer = toml::Deserializer::parse(text)
         .map_err(|error| place(&error).not_parsed(error.message()))?;
@@ -133,17 +128,15 @@ fn toml_value<T: DeserializeOwned>(text: &str, origin: &str) -> Result<T, Error>
 }
 
 /// The position of an error in a file.
-struct Place<'a> {
-    origin: &'a str,
+struct Place {
     line: usize,
     column: usize,
 }
 
-impl Place<'_> {
-    fn not_parsed(&self, problem: &str) -> Error {
-        let Self { origin, line, column } = *self;
-        Error::NotParsed {
-            origin: origin.to_owned(),
+impl Place {
+    fn not_parsed(&self, problem: &str) -> FormatError {
+        let Self { line, column } = *self;
+        FormatError::NotParsed {
             line,
             column,
             problem: shortened(problem.lines().next().unwrap_or_default(), 300),
@@ -151,10 +144,9 @@ impl Place<'_> {
     }
 
     /// `path` is in the form of `serde_path_to_error`, where a lone dot means the file as a whole.
-    fn wrong_member(&self, path: &str, problem: &str) -> Error {
-        let Self { origin, line, column } = *self;
-        Error::WrongMember {
-            origin: origin.to_owned(),
+    fn wrong_member(&self, path: &str, problem: &str) -> FormatError {
+        let Self { line, column } = *self;
+        FormatError::WrongMember {
             line,
             column,
             member: if path == "." { String::new() } else { format!("{}: ", shortened(path, 100)) },

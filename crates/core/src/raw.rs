@@ -12,7 +12,7 @@ use serde::Deserialize;
 
 use crate::limits::{self, Limits};
 use crate::parse::shortened;
-use crate::{Aircraft, AircraftType, Degrees, Error, Operations, Time, Vertiport, check};
+use crate::{Aircraft, AircraftType, Degrees, FormatError, Operations, Time, Vertiport, check};
 
 pub(crate) use disturbances::{RawClosure, RawOutage, RawRoute, RawTakeoffDelays};
 
@@ -29,9 +29,9 @@ pub(crate) struct RawOperations {
 }
 
 impl RawOperations {
-    pub(crate) fn check(&self, origin: &str) -> Result<Operations, Error> {
+    pub(crate) fn check(&self) -> Result<Operations, FormatError> {
         let seconds = |value: f64, limits: &Limits, member: &str| {
-            limits.whole_number(value, origin, || format!("operations: {member}"))
+            limits.whole_number(value, || format!("operations: {member}"))
         };
         Ok(Operations {
             start: self.start,
@@ -66,17 +66,16 @@ pub(crate) struct RawVertiport {
 }
 
 impl RawVertiport {
-    pub(crate) fn check(self, at: usize, origin: &str) -> Result<Vertiport, Error> {
-        check::id(origin, || format!("vertiports[{at}]: id"), &self.id)?;
+    pub(crate) fn check(self, at: usize) -> Result<Vertiport, FormatError> {
+        check::id(|| format!("vertiports[{at}]: id"), &self.id)?;
         let member = || format!("vertiport {:?}: stands", self.id);
-        let stands = limits::STANDS.whole_number(self.stands, origin, member)?;
-        let chargers = chargers(&self.id, self.chargers, origin)?;
+        let stands = limits::STANDS.whole_number(self.stands, member)?;
+        let chargers = chargers(&self.id, self.chargers)?;
         let degrees = match (self.latitude, self.longitude) {
             (None, None) => None,
             (Some(latitude), Some(longitude)) => Some(Degrees { latitude, longitude }),
             _ => {
-                return Err(Error::NotOneOf {
-                    origin: origin.to_owned(),
+                return Err(FormatError::NotOneOf {
                     member: format!("vertiport {:?}", self.id),
                     choices: "latitude and longitude together, or neither",
                     found: 1,
@@ -98,9 +97,9 @@ impl RawVertiport {
 }
 
 /// The number of a vertiport's chargers, if it has chargers beside its other stands.
-pub(crate) fn chargers(id: &str, raw: Option<f64>, origin: &str) -> Result<Option<u16>, Error> {
+pub(crate) fn chargers(id: &str, raw: Option<f64>) -> Result<Option<u16>, FormatError> {
     let member = || format!("vertiport {id:?}: chargers");
-    raw.map(|chargers| limits::CHARGERS.whole_number(chargers, origin, member)).transpose()
+    raw.map(|chargers| limits::CHARGERS.whole_number(chargers, member)).transpose()
 }
 
 #[derive(Deserialize)]
@@ -116,10 +115,10 @@ pub(crate) struct RawAircraftType {
 }
 
 impl RawAircraftType {
-    pub(crate) fn check(self, at: usize, origin: &str) -> Result<AircraftType, Error> {
-        check::id(origin, || format!("aircraft_types[{at}]: id"), &self.id)?;
+    pub(crate) fn check(self, at: usize) -> Result<AircraftType, FormatError> {
+        check::id(|| format!("aircraft_types[{at}]: id"), &self.id)?;
         let member = || format!("aircraft type {:?}: seats", self.id);
-        let seats = limits::SEATS.whole_number(self.seats, origin, member)?;
+        let seats = limits::SEATS.whole_number(self.seats, member)?;
         Ok(AircraftType {
             id: self.id,
             seats,
@@ -135,8 +134,8 @@ impl RawAircraftType {
 /// Checks the entries of a list one by one; `check` gets each entry with its position.
 pub(crate) fn each<Raw, Checked>(
     entries: Vec<Raw>,
-    mut check: impl FnMut(Raw, usize) -> Result<Checked, Error>,
-) -> Result<Vec<Checked>, Error> {
+    mut check: impl FnMut(Raw, usize) -> Result<Checked, FormatError>,
+) -> Result<Vec<Checked>, FormatError> {
     entries.into_iter().enumerate().map(|(at, raw)| check(raw, at)).collect()
 }
 
@@ -148,23 +147,23 @@ pub(crate) struct Positions<'a> {
 
 impl<'a> Positions<'a> {
     /// The positions of the vertiports. Duplicate ids are refused.
-    pub(crate) fn of_vertiports(vertiports: &'a [Vertiport], origin: &str) -> Result<Self, Error> {
+    pub(crate) fn of_vertiports(vertiports: &'a [Vertiport]) -> Result<Self, FormatError> {
         let ids = vertiports.iter().map(|vertiport| &vertiport.id);
-        check::ids(origin, "vertiports", "vertiport", ids.clone())?;
+        check::ids("vertiports", "vertiport", ids.clone())?;
         Ok(Self::of("vertiports", ids))
     }
 
     /// The positions of the aircraft types. Duplicate ids are refused.
-    pub(crate) fn of_types(kinds: &'a [AircraftType], origin: &str) -> Result<Self, Error> {
+    pub(crate) fn of_types(kinds: &'a [AircraftType]) -> Result<Self, FormatError> {
         let ids = kinds.iter().map(|kind| &kind.id);
-        check::ids(origin, "aircraft_types", "aircraft type", ids.clone())?;
+        check::ids("aircraft_types", "aircraft type", ids.clone())?;
         Ok(Self::of("aircraft types", ids))
     }
 
     /// The positions of the aircraft. Duplicate ids are refused.
-    pub(crate) fn of_aircraft(aircraft: &'a [Aircraft], origin: &str) -> Result<Self, Error> {
+    pub(crate) fn of_aircraft(aircraft: &'a [Aircraft]) -> Result<Self, FormatError> {
         let ids = aircraft.iter().map(|aircraft| &aircraft.id);
-        check::ids(origin, "aircraft", "aircraft", ids.clone())?;
+        check::ids("aircraft", "aircraft", ids.clone())?;
         Ok(Self::of("aircraft", ids))
     }
 
@@ -176,11 +175,9 @@ impl<'a> Positions<'a> {
     pub(crate) fn position(
         &self,
         id: &str,
-        origin: &str,
         member: impl FnOnce() -> String,
-    ) -> Result<usize, Error> {
-        self.by_id.get(id).copied().ok_or_else(|| Error::UnknownId {
-            origin: origin.to_owned(),
+    ) -> Result<usize, FormatError> {
+        self.by_id.get(id).copied().ok_or_else(|| FormatError::UnknownId {
             member: member(),
             found: shortened(id, 64),
             list: self.list,

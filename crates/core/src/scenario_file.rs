@@ -13,8 +13,8 @@ use crate::raw::{
     RawVertiport, each,
 };
 use crate::{
-    Aircraft, Day, Disturbances, Error, Fares, Matrix, Scenario, Time, TypeIx, VertiportIx, check,
-    input, parse,
+    Aircraft, Day, Disturbances, Error, Fares, FormatError, Matrix, Scenario, Time, TypeIx,
+    VertiportIx, check, input, parse,
 };
 
 /// The format and version that the file's `format` member names.
@@ -37,12 +37,17 @@ impl Scenario {
     /// # Errors
     /// The text is longer than 64 MiB or breaks a rule of the format; the message names the member.
     pub fn from_json(text: &[u8], origin: &str) -> Result<Self, Error> {
-        input::check_length(text, input::LONGEST_SCENARIO, origin)?;
-        let text = parse::without_mark(text);
-        parse::is_no_network(text, origin)?;
-        let raw: RawScenario = parse::json(text, FORMAT, origin)?;
-        raw.day(origin)?.check(origin)
+        scenario(text).map_err(|error| error.in_file(origin))
     }
+}
+
+/// Reads and checks the text of a scenario file.
+fn scenario(text: &[u8]) -> Result<Scenario, FormatError> {
+    input::check_length(text, input::LONGEST_SCENARIO)?;
+    let text = parse::without_mark(text);
+    parse::is_no_network(text)?;
+    let raw: RawScenario = parse::json(text, FORMAT)?;
+    raw.day()?.checked()
 }
 
 #[derive(Deserialize)]
@@ -94,17 +99,16 @@ struct RawAircraft {
 impl RawScenario {
     /// Converts the file to the open form of a day: ids become positions, rows become tables,
     /// counts become whole numbers.
-    fn day(self, origin: &str) -> Result<Day, Error> {
+    fn day(self) -> Result<Day, FormatError> {
         // Positions are 16 bits wide, so lengths are checked before any position is made.
-        let list = |member, found, most| check::entry_count(origin, member, found, most);
-        list("vertiports", self.vertiports.len(), entries::VERTIPORTS)?;
-        list("aircraft_types", self.aircraft_types.len(), entries::AIRCRAFT_TYPES)?;
-        list("aircraft", self.aircraft.len(), entries::AIRCRAFT)?;
+        check::entry_count("vertiports", self.vertiports.len(), entries::VERTIPORTS)?;
+        check::entry_count("aircraft_types", self.aircraft_types.len(), entries::AIRCRAFT_TYPES)?;
+        check::entry_count("aircraft", self.aircraft.len(), entries::AIRCRAFT)?;
 
         let size = self.vertiports.len();
-        let table = |rows, member: &str| table(rows, size, member, origin);
+        let table = |rows, member: &str| table(rows, size, member);
         let distance_mi = table(self.distance_mi, "distance_mi")?;
-        let fare_usd = fares(self.fare, size, origin)?;
+        let fare_usd = fares(self.fare, size)?;
         let passenger_cost_usd = table(self.passenger_cost, "passenger_cost")?;
         let flight_cost_usd = match self.flight_cost {
             Some(rows) => table(rows, "flight_cost")?,
@@ -113,33 +117,33 @@ impl RawScenario {
         let passengers = |tables: Vec<Vec<Vec<f64>>>, member: &str| {
             each(tables, |rows, period| {
                 let member = format!("{member}[{period}]");
-                passengers(&table(rows, &member)?, &member, origin)
+                passengers(&table(rows, &member)?, &member)
             })
         };
         let demand = passengers(self.demand, "demand")?;
         let forecast = self.forecast.map(|tables| passengers(tables, "forecast")).transpose()?;
 
-        let vertiports = each(self.vertiports, |raw, at| raw.check(at, origin))?;
-        let aircraft_types = each(self.aircraft_types, |raw, at| raw.check(at, origin))?;
-        let places = Positions::of_vertiports(&vertiports, origin)?;
-        let kinds = Positions::of_types(&aircraft_types, origin)?;
-        let aircraft = each(self.aircraft, |raw, at| raw.check(at, &kinds, &places, origin))?;
-        let fleet = Positions::of_aircraft(&aircraft, origin)?;
-        let route = |raw: RawRoute, member: String| raw.check(&places, &member, origin);
+        let vertiports = each(self.vertiports, RawVertiport::check)?;
+        let aircraft_types = each(self.aircraft_types, RawAircraftType::check)?;
+        let places = Positions::of_vertiports(&vertiports)?;
+        let kinds = Positions::of_types(&aircraft_types)?;
+        let aircraft = each(self.aircraft, |raw, at| raw.check(at, &kinds, &places))?;
+        let fleet = Positions::of_aircraft(&aircraft)?;
+        let route = |raw: RawRoute, member: String| raw.check(&places, &member);
         let corridors = self
             .corridors
             .map(|routes| each(routes, |raw, at| route(raw, format!("corridors[{at}]"))));
         let disturbances = Disturbances {
             forecast,
-            takeoff_delays: self.takeoff_delays.map(|raw| raw.check(origin)).transpose()?,
-            closures: each(self.closures, |raw, at| raw.check(at, &places, origin))?,
-            outages: each(self.outages, |raw, at| raw.check(at, &fleet, origin))?,
+            takeoff_delays: self.takeoff_delays.map(RawTakeoffDelays::check).transpose()?,
+            closures: each(self.closures, |raw, at| raw.check(at, &places))?,
+            outages: each(self.outages, |raw, at| raw.check(at, &fleet))?,
         };
 
         Ok(Day {
             name: self.name,
-            seed: seed(self.seed, origin)?,
-            operations: self.operations.check(origin)?,
+            seed: seed(self.seed)?,
+            operations: self.operations.check()?,
             vertiports,
             aircraft_types,
             aircraft,
@@ -163,25 +167,18 @@ impl RawAircraft {
         at: usize,
         kinds: &Positions,
         places: &Positions,
-        origin: &str,
-    ) -> Result<Aircraft, Error> {
-        check::id(origin, || format!("aircraft[{at}]: id"), &self.id)?;
+    ) -> Result<Aircraft, FormatError> {
+        check::id(|| format!("aircraft[{at}]: id"), &self.id)?;
         let member = |member: &str| format!("aircraft {:?}: {member}", self.id);
-        let kind = TypeIx::new(kinds.position(&self.kind, origin, || member("type"))?);
-        let at = VertiportIx::new(places.position(&self.at, origin, || member("at"))?);
+        let kind = TypeIx::new(kinds.position(&self.kind, || member("type"))?);
+        let at = VertiportIx::new(places.position(&self.at, || member("at"))?);
         Ok(Aircraft { id: self.id, kind, at })
     }
 }
 
 /// Converts rows to a square table.
-fn table(
-    rows: Vec<Vec<f64>>,
-    size: usize,
-    member: &str,
-    origin: &str,
-) -> Result<Matrix<f64>, Error> {
-    let wrong = |member: String, part: &str, found| Error::WrongShape {
-        origin: origin.to_owned(),
+fn table(rows: Vec<Vec<f64>>, size: usize, member: &str) -> Result<Matrix<f64>, FormatError> {
+    let wrong = |member: String, part: &str, found| FormatError::WrongShape {
         member,
         expected: format!("a {part} for each of {size} vertiports"),
         found,
@@ -196,10 +193,9 @@ fn table(
 }
 
 /// Converts fares: one table for all day, or several, one for each period.
-fn fares(raw: Vec<Vec<RawFare>>, size: usize, origin: &str) -> Result<Fares, Error> {
+fn fares(raw: Vec<Vec<RawFare>>, size: usize) -> Result<Fares, FormatError> {
     let by_period = raw.iter().flatten().any(|fare| matches!(fare, RawFare::Row(_)));
-    let wrong = |member: String, expected: &str| Error::WrongShape {
-        origin: origin.to_owned(),
+    let wrong = |member: String, expected: &str| FormatError::WrongShape {
         member,
         expected: expected.to_owned(),
         found: 1,
@@ -210,7 +206,7 @@ fn fares(raw: Vec<Vec<RawFare>>, size: usize, origin: &str) -> Result<Fares, Err
                 RawFare::Row(row) => Ok(row),
                 RawFare::Cell(_) => Err(wrong(format!("fare[{period}][{at}]"), "a row")),
             })?;
-            table(rows, size, &format!("fare[{period}]"), origin)
+            table(rows, size, &format!("fare[{period}]"))
         })?;
         return Ok(Fares::by_period(tables));
     }
@@ -218,18 +214,18 @@ fn fares(raw: Vec<Vec<RawFare>>, size: usize, origin: &str) -> Result<Fares, Err
         let cell = |fare| if let RawFare::Cell(cell) = fare { Some(cell) } else { None };
         row.into_iter().filter_map(cell).collect()
     });
-    Ok(table(rows.collect(), size, "fare", origin)?.into())
+    Ok(table(rows.collect(), size, "fare")?.into())
 }
 
 /// Converts a table of one period's demand to whole passengers.
-fn passengers(table: &Matrix<f64>, member: &str, origin: &str) -> Result<Matrix<u32>, Error> {
+fn passengers(table: &Matrix<f64>, member: &str) -> Result<Matrix<u32>, FormatError> {
     let mut rows = Vec::with_capacity(table.size());
     for (from, row) in table.rows().enumerate() {
         let count = |(to, &cell): (usize, &f64)| {
             let member = || format!("{member}[{from}][{to}]");
-            limits::PASSENGERS.whole_number(cell, origin, member)
+            limits::PASSENGERS.whole_number(cell, member)
         };
-        rows.push(row.iter().enumerate().map(count).collect::<Result<Vec<u32>, Error>>()?);
+        rows.push(row.iter().enumerate().map(count).collect::<Result<Vec<u32>, FormatError>>()?);
     }
     Ok(Matrix::from_rows(table.size(), rows).expect("rows of a square table"))
 }
@@ -239,13 +235,9 @@ fn passengers(table: &Matrix<f64>, member: &str, origin: &str) -> Result<Matrix<
     clippy::cast_sign_loss,
     reason = "checked: whole and below 2^53"
 )]
-fn seed(value: f64, origin: &str) -> Result<u64, Error> {
+fn seed(value: f64) -> Result<u64, FormatError> {
     if value >= 0.0 && value.fract() == 0.0 && value < limits::SEED_LIMIT as f64 {
         return Ok(value as u64);
     }
-    Err(Error::SeedOutOfRange {
-        member: format!("{origin}: seed"),
-        limit: limits::SEED_LIMIT,
-        found: limits::number(value),
-    })
+    Err(FormatError::SeedOutOfRange { found: limits::number(value) })
 }

@@ -1,6 +1,6 @@
 //! Expected errors of an import: what is wrong in the planner's files or settings, and what to do.
 
-use vertifleet_core::{Code, Coded, Exit, Stopped};
+use vertifleet_core::{Code, Coded, Error as CoreError, Exit, FormatError, Stopped};
 
 /// An expected error of this crate. Messages are fragments for users; [`Error::code`] is for
 /// programs and the error index.
@@ -9,7 +9,7 @@ pub enum Error {
     /// A file that cannot be read or is too long, or a network that breaks a rule of its format
     /// (V1xx), as reported by `vertifleet-core`.
     #[error(transparent)]
-    Core(#[from] vertifleet_core::Error),
+    Core(#[from] CoreError),
 
     /// V701 not the promised kind of file. A file is not of the kind that its name or its first
     /// bytes promise, or it is damaged. Or its text is not UTF-8: some spreadsheets save "Unicode
@@ -295,7 +295,7 @@ impl Coded for Error {
 
     fn hint(&self) -> Option<&str> {
         match self {
-            Self::Core(vertifleet_core::Error::FleetTooLarge { .. }) => Some(
+            Self::Core(CoreError::InFile { error: FormatError::FleetTooLarge { .. }, .. }) => Some(
                 "an aircraft needs a stand wherever it is, also on its way there: ask for fewer with --aircraft, or give the vertiports more stands",
             ),
             Self::Core(error) => error.hint(),

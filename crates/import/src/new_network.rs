@@ -1,9 +1,12 @@
 //! A network file to start from: a few vertiports, a fleet, a demand in passengers a day, and a
 //! comment on every line that is an assumption.
 
-use vertifleet_core::Network;
+use vertifleet_core::{FormatError, Network};
 
 use crate::Error;
+
+/// The name of the text in messages.
+const ORIGIN: &str = "the new network";
 
 /// What a new network has. Everything else is an assumption that stands in its file.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,15 +45,13 @@ impl NewNetwork {
         if self.vertiports.is_empty() {
             // A TOML file cannot have an empty list of tables, so the text would only lack a
             // member.
-            return Err(Error::Core(vertifleet_core::Error::EntryCount {
-                origin: "the new network".to_owned(),
-                member: "vertiports".to_owned(),
-                most: 256,
-                found: 0,
-            }));
+            let member = "vertiports".to_owned();
+            return Err(FormatError::EntryCount { member, most: 256, found: 0 }
+                .in_file(ORIGIN)
+                .into());
         }
         let text = self.text();
-        Network::from_toml(&text, "the new network")?;
+        Network::from_toml(&text, ORIGIN)?;
         Ok(text)
     }
 

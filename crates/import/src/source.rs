@@ -9,7 +9,7 @@ use std::io::{Cursor, ErrorKind, Read, Seek};
 use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
-use vertifleet_core::{Error as CoreError, read_at_most};
+use vertifleet_core::{Error as CoreError, FormatError, read_at_most};
 use zip::ZipArchive;
 use zip::result::ZipError;
 
@@ -75,7 +75,7 @@ pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, Error> {
         let read = reader.take(LONGEST + 1).read_to_end(&mut bytes);
         read.map_err(|cause| cannot_read(path, cause))?;
         if bytes.len() as u64 > LONGEST {
-            return Err(CoreError::FileTooLarge { origin: origin.clone(), limit: LONGEST }.into());
+            return Err(FormatError::FileTooLarge { limit: LONGEST }.in_file(&origin).into());
         }
         Packing::of(&bytes, &origin)?;
         Ok(bytes)

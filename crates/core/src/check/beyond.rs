@@ -3,19 +3,19 @@
 
 use super::{Check, entry_count, span};
 use crate::limits::{self, entries};
-use crate::{Error, Route, TakeoffDelays};
+use crate::{FormatError, Route, TakeoffDelays};
 
 impl Check<'_> {
-    pub(super) fn corridors(&self) -> Result<(), Error> {
+    pub(super) fn corridors(&self) -> Result<(), FormatError> {
         let Some(corridors) = &self.day.corridors else { return Ok(()) };
-        entry_count(self.origin, "corridors", corridors.len(), entries::CORRIDORS)?;
+        entry_count("corridors", corridors.len(), entries::CORRIDORS)?;
         for (at, route) in corridors.iter().enumerate() {
             self.route(*route, || format!("corridors[{at}]"))?;
         }
         Ok(())
     }
 
-    pub(super) fn disturbances(&self) -> Result<(), Error> {
+    pub(super) fn disturbances(&self) -> Result<(), FormatError> {
         let disturbances = &self.day.disturbances;
         if let Some(forecast) = &disturbances.forecast {
             self.passengers(forecast, "forecast")?;
@@ -27,13 +27,12 @@ impl Check<'_> {
         self.outages()
     }
 
-    fn takeoff_delays(&self, delays: &TakeoffDelays) -> Result<(), Error> {
+    fn takeoff_delays(&self, delays: &TakeoffDelays) -> Result<(), FormatError> {
         let member = || "takeoff_delays: slot_s".to_owned();
-        limits::SLOT_S.check(delays.slot_s.into(), self.origin, member)?;
+        limits::SLOT_S.check(delays.slot_s.into(), member)?;
         let operations = &self.day.operations;
         let slots = TakeoffDelays::slots(delays.slot_s, operations.start, operations.end);
-        let wrong = |member: String, expected: String, found| Error::WrongShape {
-            origin: self.origin.to_owned(),
+        let wrong = |member: String, expected: String, found| FormatError::WrongShape {
             member,
             expected,
             found,
@@ -51,57 +50,55 @@ impl Check<'_> {
             }
             for (at, &delay_s) in delays_s.iter().enumerate() {
                 let member = || format!("{member}[{slot}][{at}]");
-                limits::PHASE_S.check(delay_s.into(), self.origin, member)?;
+                limits::PHASE_S.check(delay_s.into(), member)?;
             }
         }
         Ok(())
     }
 
-    fn closures(&self) -> Result<(), Error> {
+    fn closures(&self) -> Result<(), FormatError> {
         let closures = &self.day.disturbances.closures;
-        self.at_most("closures", closures.len(), entries::CLOSURES)?;
+        at_most("closures", closures.len(), entries::CLOSURES)?;
         for (at, closure) in closures.iter().enumerate() {
             let member = || format!("closures[{at}]");
             self.route(closure.route, member)?;
-            span(closure.start, closure.end, self.origin, member)?;
+            span(closure.start, closure.end, member)?;
         }
         Ok(())
     }
 
-    fn outages(&self) -> Result<(), Error> {
+    fn outages(&self) -> Result<(), FormatError> {
         let outages = &self.day.disturbances.outages;
-        self.at_most("outages", outages.len(), entries::OUTAGES)?;
+        at_most("outages", outages.len(), entries::OUTAGES)?;
         for (at, outage) in outages.iter().enumerate() {
             let member = || format!("outages[{at}]");
             if outage.aircraft.at() >= self.day.aircraft.len() {
-                return Err(self.unknown(member(), outage.aircraft.at(), "aircraft"));
+                return Err(unknown(member(), outage.aircraft.at(), "aircraft"));
             }
-            span(outage.start, outage.end, self.origin, member)?;
+            span(outage.start, outage.end, member)?;
         }
         Ok(())
     }
 
-    fn route(&self, route: Route, member: impl Fn() -> String) -> Result<(), Error> {
+    fn route(&self, route: Route, member: impl Fn() -> String) -> Result<(), FormatError> {
         for end in [route.from, route.to] {
             if end.at() >= self.day.vertiports.len() {
-                return Err(self.unknown(member(), end.at(), "vertiports"));
+                return Err(unknown(member(), end.at(), "vertiports"));
             }
         }
         if route.from == route.to {
             let vertiport = self.day.vertiports[route.from.at()].id.clone();
-            let origin = self.origin.to_owned();
-            return Err(Error::RouteToItself { origin, member: member(), vertiport });
+            return Err(FormatError::RouteToItself { member: member(), vertiport });
         }
         Ok(())
     }
+}
 
-    fn unknown(&self, member: String, position: usize, list: &'static str) -> Error {
-        let origin = self.origin.to_owned();
-        Error::UnknownId { origin, member, found: format!("#{position}"), list }
-    }
+fn unknown(member: String, position: usize, list: &'static str) -> FormatError {
+    FormatError::UnknownId { member, found: format!("#{position}"), list }
+}
 
-    /// Refuses a list of more than `most` entries. The list may be empty.
-    fn at_most(&self, member: &str, found: usize, most: usize) -> Result<(), Error> {
-        if found == 0 { Ok(()) } else { entry_count(self.origin, member, found, most) }
-    }
+/// Refuses a list of more than `most` entries. The list may be empty.
+fn at_most(member: &str, found: usize, most: usize) -> Result<(), FormatError> {
+    if found == 0 { Ok(()) } else { entry_count(member, found, most) }
 }

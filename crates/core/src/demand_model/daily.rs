@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::distribution::{Distribution, Name, RawDistribution};
 use super::{DemandModel, Kind, check_periods};
-use crate::{Error, Matrix, Time, VertiportIx, limits};
+use crate::{FormatError, Matrix, Time, VertiportIx, limits};
 
 /// Mean passengers a day, and how they spread over the day.
 #[derive(Debug, Clone)]
@@ -49,27 +49,26 @@ struct RawGravity {
 }
 
 impl RawDailyDemand {
-    pub(crate) fn check(self, vertiports: usize, origin: &str) -> Result<DemandModel, Error> {
-        check_periods(&self.periods, "daily_demand", vertiports, origin)?;
+    pub(crate) fn check(self, vertiports: usize) -> Result<DemandModel, FormatError> {
+        check_periods(&self.periods, "daily_demand", vertiports)?;
         let shares = &self.shares_percent;
         let member = |member: &str| format!("daily_demand: {member}");
-        length(shares, self.periods.len(), "period", member("shares_percent"), origin)?;
+        length(shares, self.periods.len(), "period", member("shares_percent"))?;
         for (at, &share) in shares.iter().enumerate() {
             let member = || member(&format!("shares_percent[{at}]"));
-            limits::SHARE_PERCENT.check(share, origin, member)?;
+            limits::SHARE_PERCENT.check(share, member)?;
         }
         let distribution = RawDistribution {
             name: self.distribution,
             noise: self.noise,
             dispersion: self.dispersion,
         };
-        let distribution = distribution.check("daily_demand", origin)?;
+        let distribution = distribution.check("daily_demand")?;
         let passengers = match (self.passengers, self.gravity) {
-            (Some(rows), None) => table(rows, vertiports, origin)?,
-            (None, Some(gravity)) => gravity.passengers(vertiports, origin)?,
+            (Some(rows), None) => table(rows, vertiports)?,
+            (None, Some(gravity)) => gravity.passengers(vertiports)?,
             (rows, gravity) => {
-                return Err(Error::NotOneOf {
-                    origin: origin.to_owned(),
+                return Err(FormatError::NotOneOf {
                     member: "daily_demand".to_owned(),
                     choices: "exactly one of passengers and gravity",
                     found: usize::from(rows.is_some()) + usize::from(gravity.is_some()),
@@ -84,12 +83,12 @@ impl RawDailyDemand {
 
 impl RawGravity {
     /// Distributes the total over all pairs of different vertiports.
-    fn passengers(&self, vertiports: usize, origin: &str) -> Result<Matrix<f64>, Error> {
+    fn passengers(&self, vertiports: usize) -> Result<Matrix<f64>, FormatError> {
         let member = |member: &str| format!("daily_demand: gravity: {member}");
-        limits::DAILY_DEMAND.check(self.passengers, origin, || member("passengers"))?;
-        length(&self.weights, vertiports, "vertiport", member("weights"), origin)?;
+        limits::DAILY_DEMAND.check(self.passengers, || member("passengers"))?;
+        length(&self.weights, vertiports, "vertiport", member("weights"))?;
         for (at, &weight) in self.weights.iter().enumerate() {
-            limits::WEIGHT.check(weight, origin, || member(&format!("weights[{at}]")))?;
+            limits::WEIGHT.check(weight, || member(&format!("weights[{at}]")))?;
         }
         let pull = Matrix::from_fn(vertiports, |from, to| {
             if from == to { 0.0 } else { self.weights[from.at()] * self.weights[to.at()] }
@@ -100,7 +99,7 @@ impl RawGravity {
     }
 }
 
-fn table(rows: Vec<Vec<f64>>, vertiports: usize, origin: &str) -> Result<Matrix<f64>, Error> {
+fn table(rows: Vec<Vec<f64>>, vertiports: usize) -> Result<Matrix<f64>, FormatError> {
     let member = |at: usize| format!("daily_demand: passengers[{at}]");
     if rows.len() != vertiports {
         return Err(wrong_length(
@@ -108,33 +107,26 @@ fn table(rows: Vec<Vec<f64>>, vertiports: usize, origin: &str) -> Result<Matrix<
             vertiports,
             "vertiport",
             rows.len(),
-            origin,
         ));
     }
     for (at, row) in rows.iter().enumerate() {
-        length(row, vertiports, "vertiport", member(at), origin)?;
+        length(row, vertiports, "vertiport", member(at))?;
         for (to, &passengers) in row.iter().enumerate() {
             let member = || format!("{}[{to}]", member(at));
-            limits::DAILY_DEMAND.check(passengers, origin, member)?;
+            limits::DAILY_DEMAND.check(passengers, member)?;
         }
     }
     Ok(Matrix::from_rows(vertiports, rows).expect("a square, just checked"))
 }
 
-fn length(
-    list: &[f64],
-    due: usize,
-    entry: &str,
-    member: String,
-    origin: &str,
-) -> Result<(), Error> {
+fn length(list: &[f64], due: usize, entry: &str, member: String) -> Result<(), FormatError> {
     if list.len() == due {
         return Ok(());
     }
-    Err(wrong_length(member, due, entry, list.len(), origin))
+    Err(wrong_length(member, due, entry, list.len()))
 }
 
-fn wrong_length(member: String, due: usize, entry: &str, found: usize, origin: &str) -> Error {
+fn wrong_length(member: String, due: usize, entry: &str, found: usize) -> FormatError {
     let expected = format!("an entry for each of {due} {entry}s");
-    Error::WrongShape { origin: origin.to_owned(), member, expected, found }
+    FormatError::WrongShape { member, expected, found }
 }

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::draws;
 use crate::limits;
 use crate::random::rounded_by_chance;
-use crate::{Error, limits::Limits};
+use crate::{FormatError, limits::Limits};
 
 /// A distribution of whole passengers around any mean.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,17 +100,16 @@ impl RawDistribution {
     /// Checks the members of `model` and returns the distribution that they choose. If none is
     /// named, `noise` means the normal one, as it did before distributions had names, and no
     /// `noise` means the Poisson one.
-    pub(super) fn check(self, model: &str, origin: &str) -> Result<Distribution, Error> {
+    pub(super) fn check(self, model: &str) -> Result<Distribution, FormatError> {
         let unnamed = if self.noise.is_some() { Name::Normal } else { Name::Poisson };
         let name = self.name.unwrap_or(unnamed);
-        let unfit = |member: &str, rule: &'static str| Error::UnfitSetting {
-            origin: origin.to_owned(),
+        let unfit = |member: &str, rule: &'static str| FormatError::UnfitSetting {
             member: format!("{model}: {member}"),
             rule,
             distribution: name.text(),
         };
         let number = |value: f64, limits: &Limits, member: &str| {
-            limits.check(value, origin, || format!("{model}: {member}"))
+            limits.check(value, || format!("{model}: {member}"))
         };
         match (name, self.noise, self.dispersion) {
             (Name::Poisson, None, None) => Ok(Distribution::Poisson),

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::{DemandModel, Kind, Level};
 use crate::limits;
-use crate::{Error, Time, VertiportIx};
+use crate::{FormatError, Time, VertiportIx};
 
 /// Eq. 1 with the numbers of a network file.
 #[derive(Debug, Clone)]
@@ -57,22 +57,23 @@ struct RawLevel {
 
 impl RawEquation1 {
     /// Checks everything but the order of the periods, which is checked with each day.
-    pub(crate) fn check(self, busy: Vec<bool>, origin: &str) -> Result<DemandModel, Error> {
-        super::check_periods(&self.periods, "demand", busy.len(), origin)?;
+    pub(crate) fn check(self, busy: Vec<bool>) -> Result<DemandModel, FormatError> {
+        super::check_periods(&self.periods, "demand", busy.len())?;
         let peak = |time: Time, member: &str| {
-            self.periods.iter().position(|&start| start == time).ok_or_else(|| Error::UnknownId {
-                origin: origin.to_owned(),
-                member: format!("demand: {member}"),
-                found: time.to_string(),
-                list: "starts of demand periods",
+            self.periods.iter().position(|&start| start == time).ok_or_else(|| {
+                FormatError::UnknownId {
+                    member: format!("demand: {member}"),
+                    found: time.to_string(),
+                    list: "starts of demand periods",
+                }
             })
         };
         let kind = Kind::Equation1(Equation1 {
             morning_peak: peak(self.morning_peak, "morning_peak")?,
             evening_peak: peak(self.evening_peak, "evening_peak")?,
-            peak: self.peak.check("peak", origin)?,
-            busy_pairs: self.busy_pairs.check("busy_pairs", origin)?,
-            otherwise: self.otherwise.check("otherwise", origin)?,
+            peak: self.peak.check("peak")?,
+            busy_pairs: self.busy_pairs.check("busy_pairs")?,
+            otherwise: self.otherwise.check("otherwise")?,
             busy,
         });
         Ok(DemandModel::new(self.periods, kind))
@@ -80,10 +81,10 @@ impl RawEquation1 {
 }
 
 impl RawLevel {
-    fn check(&self, member: &str, origin: &str) -> Result<Level, Error> {
+    fn check(&self, member: &str) -> Result<Level, FormatError> {
         let Self { mean, sd } = *self;
-        limits::DEMAND_MEAN.check(mean, origin, || format!("demand: {member}: mean"))?;
-        limits::DEMAND_SD.check(sd, origin, || format!("demand: {member}: sd"))?;
+        limits::DEMAND_MEAN.check(mean, || format!("demand: {member}: mean"))?;
+        limits::DEMAND_SD.check(sd, || format!("demand: {member}: sd"))?;
         Ok(Level { mean, sd })
     }
 }

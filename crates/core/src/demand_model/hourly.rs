@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::distribution::{Distribution, Name, RawDistribution};
 use super::{DemandModel, Kind, check_periods};
 use crate::raw::{Positions, each};
-use crate::{Error, Matrix, Time, VertiportIx, limits};
+use crate::{FormatError, Matrix, Time, VertiportIx, limits};
 
 /// Mean passengers by period and pair.
 #[derive(Debug, Clone)]
@@ -54,23 +54,21 @@ impl RawHourlyDemand {
         self,
         places: &Positions,
         vertiports: usize,
-        origin: &str,
-    ) -> Result<DemandModel, Error> {
-        check_periods(&self.periods, "hourly_demand", vertiports, origin)?;
+    ) -> Result<DemandModel, FormatError> {
+        check_periods(&self.periods, "hourly_demand", vertiports)?;
         let distribution = RawDistribution {
             name: self.distribution,
             noise: self.noise,
             dispersion: self.dispersion,
         };
-        let distribution = distribution.check("hourly_demand", origin)?;
+        let distribution = distribution.check("hourly_demand")?;
         let pairs = match (self.pairs, self.table) {
             (Some(pairs), None) => pairs,
             (None, Some(table)) => {
-                return Err(Error::TableWithoutFolder { origin: origin.to_owned(), table });
+                return Err(FormatError::TableWithoutFolder { table });
             }
             (pairs, table) => {
-                return Err(Error::NotOneOf {
-                    origin: origin.to_owned(),
+                return Err(FormatError::NotOneOf {
                     member: "hourly_demand".to_owned(),
                     choices: "exactly one of pairs and table",
                     found: usize::from(pairs.is_some()) + usize::from(table.is_some()),
@@ -81,10 +79,10 @@ impl RawHourlyDemand {
         let mut seen = HashSet::new();
         each(pairs, |pair, at| {
             let member = format!("hourly_demand: pairs[{at}]");
-            let ends = pair.check(self.periods.len(), places, &member, origin)?;
+            let ends = pair.check(self.periods.len(), places, &member)?;
             if !seen.insert(ends) {
                 let what = format!("the demand from {:?} to {:?}", pair.from, pair.to);
-                return Err(Error::GivenTwice { origin: origin.to_owned(), member, what });
+                return Err(FormatError::GivenTwice { member, what });
             }
             for (table, mean) in passengers.iter_mut().zip(pair.passengers) {
                 table[ends] = mean;
@@ -103,22 +101,19 @@ impl RawPair {
         periods: usize,
         places: &Positions,
         member: &str,
-        origin: &str,
-    ) -> Result<(VertiportIx, VertiportIx), Error> {
+    ) -> Result<(VertiportIx, VertiportIx), FormatError> {
         let end = |id: &str, end: &str| {
-            places.position(id, origin, || format!("{member}: {end}")).map(VertiportIx::new)
+            places.position(id, || format!("{member}: {end}")).map(VertiportIx::new)
         };
         let (from, to) = (end(&self.from, "from")?, end(&self.to, "to")?);
         if from == to {
-            return Err(Error::RouteToItself {
-                origin: origin.to_owned(),
+            return Err(FormatError::RouteToItself {
                 member: member.to_owned(),
                 vertiport: self.from.clone(),
             });
         }
         if self.passengers.len() != periods {
-            return Err(Error::WrongShape {
-                origin: origin.to_owned(),
+            return Err(FormatError::WrongShape {
                 member: format!("{member}: passengers"),
                 expected: format!("an entry for each of {periods} periods"),
                 found: self.passengers.len(),
@@ -126,7 +121,7 @@ impl RawPair {
         }
         for (at, &mean) in self.passengers.iter().enumerate() {
             let member = || format!("{member}: passengers[{at}]");
-            limits::DEMAND_MEAN.check(mean, origin, member)?;
+            limits::DEMAND_MEAN.check(mean, member)?;
         }
         Ok((from, to))
     }

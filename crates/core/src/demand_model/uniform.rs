@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::Deserialize;
 
 use super::{DemandModel, Kind, check_periods};
-use crate::{Error, Time, limits};
+use crate::{FormatError, Time, limits};
 
 /// The least and the most passengers of a pair in a period.
 #[derive(Debug, Clone)]
@@ -35,16 +35,14 @@ pub(crate) struct RawUniformDemand {
 }
 
 impl RawUniformDemand {
-    pub(crate) fn check(self, vertiports: usize, origin: &str) -> Result<DemandModel, Error> {
-        check_periods(&self.periods, "uniform_demand", vertiports, origin)?;
+    pub(crate) fn check(self, vertiports: usize) -> Result<DemandModel, FormatError> {
+        check_periods(&self.periods, "uniform_demand", vertiports)?;
         let number = |value, member: &str| {
-            limits::UNIFORM_DEMAND
-                .whole_number(value, origin, || format!("uniform_demand: {member}"))
+            limits::UNIFORM_DEMAND.whole_number(value, || format!("uniform_demand: {member}"))
         };
         let (least, most): (u32, u32) = (number(self.least, "least")?, number(self.most, "most")?);
         if least > most {
-            return Err(Error::OutOfRange {
-                origin: origin.to_owned(),
+            return Err(FormatError::OutOfRange {
                 member: "uniform_demand: least".to_owned(),
                 rule: format!("at most {most}, which is most"),
                 found: least.to_string(),

@@ -9,7 +9,7 @@ use crate::limits::{self, Limits};
 use crate::random::{rounded_by_chance, to_whole, uniform};
 use crate::raw::{Positions, RawRoute, each};
 use crate::{
-    AircraftIx, Closure, Error, Matrix, Operations, Outage, Route, TakeoffDelays, Time,
+    AircraftIx, Closure, FormatError, Matrix, Operations, Outage, Route, TakeoffDelays, Time,
     VertiportIx, check,
 };
 
@@ -244,32 +244,28 @@ struct RawOutageModel {
     most_s: f64,
 }
 
-/// The file that a disturbance model stands in, and the model's name there.
-struct Member<'a> {
-    origin: &'a str,
-    name: String,
-}
+/// The name of a disturbance model in its file.
+struct Member(String);
 
-impl Member<'_> {
-    fn number(&self, value: f64, limits: &Limits, member: &str) -> Result<f64, Error> {
-        limits.check(value, self.origin, || format!("disturbances: {}: {member}", self.name))?;
+impl Member {
+    fn number(&self, value: f64, limits: &Limits, member: &str) -> Result<f64, FormatError> {
+        limits.check(value, || format!("disturbances: {}: {member}", self.0))?;
         Ok(value)
     }
 
-    fn seconds(&self, value: f64, limits: &Limits, member: &str) -> Result<u32, Error> {
-        limits.whole_number(value, self.origin, || format!("disturbances: {}: {member}", self.name))
+    fn seconds(&self, value: f64, limits: &Limits, member: &str) -> Result<u32, FormatError> {
+        limits.whole_number(value, || format!("disturbances: {}: {member}", self.0))
     }
 
     /// Checks the shortest and the longest duration of something, and returns both.
-    fn span_s(&self, least_s: f64, most_s: f64) -> Result<(u32, u32), Error> {
+    fn span_s(&self, least_s: f64, most_s: f64) -> Result<(u32, u32), FormatError> {
         let least_s = self.seconds(least_s, &limits::PHASE_S, "least_s")?;
         let most_s = self.seconds(most_s, &limits::PHASE_S, "most_s")?;
         if least_s <= most_s {
             return Ok((least_s, most_s));
         }
-        Err(Error::OutOfRange {
-            origin: self.origin.to_owned(),
-            member: format!("disturbances: {}: least_s", self.name),
+        Err(FormatError::OutOfRange {
+            member: format!("disturbances: {}: least_s", self.0),
             rule: format!("at most {most_s}, which is most_s"),
             found: least_s.to_string(),
             hint: None,
@@ -282,26 +278,25 @@ impl RawDisturbanceModel {
         self,
         places: &Positions,
         vertiports: usize,
-        origin: &str,
-    ) -> Result<DisturbanceModel, Error> {
+    ) -> Result<DisturbanceModel, FormatError> {
         let routes: usize = self.closures.iter().map(|closure| closure.routes.len()).sum();
         if routes > 0 {
             let member = "disturbances: closures, counted by routes,";
-            check::entry_count(origin, member, routes, limits::entries::CLOSURES)?;
+            check::entry_count(member, routes, limits::entries::CLOSURES)?;
         }
-        let delays = self.takeoff_delays.map(|raw| raw.check(places, vertiports, origin));
+        let delays = self.takeoff_delays.map(|raw| raw.check(places, vertiports));
         Ok(DisturbanceModel {
-            forecast_error: self.forecast_error.map(|raw| raw.check(origin)).transpose()?,
+            forecast_error: self.forecast_error.map(RawForecastError::check).transpose()?,
             takeoff_delays: delays.transpose()?,
-            closures: each(self.closures, |raw, at| raw.check(at, places, origin))?,
-            outages: self.outages.map(|raw| raw.check(origin)).transpose()?,
+            closures: each(self.closures, |raw, at| raw.check(at, places))?,
+            outages: self.outages.map(RawOutageModel::check).transpose()?,
         })
     }
 }
 
 impl RawForecastError {
-    fn check(self, origin: &str) -> Result<ForecastError, Error> {
-        let member = Member { origin, name: "forecast_error".to_owned() };
+    fn check(self) -> Result<ForecastError, FormatError> {
+        let member = Member("forecast_error".to_owned());
         Ok(ForecastError {
             noise: member.number(self.noise, &limits::NOISE, "noise")?,
             surge_probability: member.number(
@@ -319,17 +314,12 @@ impl RawForecastError {
 }
 
 impl RawDelayModel {
-    fn check(
-        self,
-        places: &Positions,
-        vertiports: usize,
-        origin: &str,
-    ) -> Result<DelayModel, Error> {
-        let member = Member { origin, name: "takeoff_delays".to_owned() };
+    fn check(self, places: &Positions, vertiports: usize) -> Result<DelayModel, FormatError> {
+        let member = Member("takeoff_delays".to_owned());
         let mut late = vec![None; vertiports];
         for raw in self.vertiports {
             let place = || "disturbances: takeoff_delays: at".to_owned();
-            late[places.position(&raw.at, origin, place)?] = Some(Late {
+            late[places.position(&raw.at, place)?] = Some(Late {
                 probability: member.number(raw.probability, &limits::PROBABILITY, "probability")?,
                 mean_s: member.number(raw.mean_s, &limits::PHASE_S, "mean_s")?,
                 most_s: member.number(raw.most_s, &limits::PHASE_S, "most_s")?,
@@ -340,17 +330,16 @@ impl RawDelayModel {
 }
 
 impl RawClosureModel {
-    fn check(self, at: usize, places: &Positions, origin: &str) -> Result<ClosureModel, Error> {
-        let member = Member { origin, name: format!("closures[{at}]") };
+    fn check(self, at: usize, places: &Positions) -> Result<ClosureModel, FormatError> {
+        let member = Member(format!("closures[{at}]"));
         let (least_s, most_s) = member.span_s(self.least_s, self.most_s)?;
         let probability = member.number(self.probability, &limits::PROBABILITY, "probability")?;
         let routes = each(self.routes, |raw, route| {
-            raw.check(places, &format!("disturbances: {}: routes[{route}]", member.name), origin)
+            raw.check(places, &format!("disturbances: {}: routes[{route}]", member.0))
         })?;
         if let Some(route) = routes.iter().find(|route| route.from == route.to) {
-            return Err(Error::RouteToItself {
-                origin: origin.to_owned(),
-                member: format!("disturbances: {}", member.name),
+            return Err(FormatError::RouteToItself {
+                member: format!("disturbances: {}", member.0),
                 vertiport: format!("#{}", route.from.0),
             });
         }
@@ -359,8 +348,8 @@ impl RawClosureModel {
 }
 
 impl RawOutageModel {
-    fn check(self, origin: &str) -> Result<OutageModel, Error> {
-        let member = Member { origin, name: "outages".to_owned() };
+    fn check(self) -> Result<OutageModel, FormatError> {
+        let member = Member("outages".to_owned());
         let (least_s, most_s) = member.span_s(self.least_s, self.most_s)?;
         let probability = member.number(self.probability, &limits::PROBABILITY, "probability")?;
         Ok(OutageModel { probability, least_s, most_s })

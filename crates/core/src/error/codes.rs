@@ -1,8 +1,7 @@
 //! The codes of the errors, their hints and exit codes.
 
-use super::Error;
+use super::{Error, FormatError};
 use crate::code::{Coded, Exit};
-use crate::limits::SEED_LIMIT;
 use crate::{Code, FileKind};
 
 impl Coded for Error {
@@ -10,6 +9,45 @@ impl Coded for Error {
         Code(match self {
             Self::CannotRead { .. } => 101,
             Self::CannotWrite { .. } => 102,
+            Self::InFile { error, .. } => return error.code(),
+            Self::SeedOutOfRange { .. } => 118,
+            Self::UnknownNetwork { .. } => 119,
+            Self::NoSuchMember { .. } => 123,
+            Self::Output(refusal) => return refusal.code(),
+        })
+    }
+
+    fn hint(&self) -> Option<&str> {
+        match self {
+            Self::CannotWrite { .. } => {
+                Some("what was there before under this name is still there, unchanged")
+            }
+            Self::InFile { error, .. } => error.hint(),
+            Self::SeedOutOfRange { .. } => {
+                Some("seeds for comparison, validation and training are kept apart by their size")
+            }
+            Self::UnknownNetwork { meant: Some(meant), .. } => Some(meant),
+            Self::UnknownNetwork { .. } => Some("a network file is TOML, see networks/paper.toml"),
+            Self::Output(refusal) => refusal.hint(),
+            Self::NoSuchMember { .. } => Some(
+                "members are named as in the network file, entries of a list by id (in the fleet by type), position or *",
+            ),
+            Self::CannotRead { .. } => None,
+        }
+    }
+
+    fn exit(&self) -> Exit {
+        match self {
+            Self::CannotWrite { .. } => Exit::Failed,
+            Self::Output(refusal) => refusal.exit(),
+            _ => Exit::Input,
+        }
+    }
+}
+
+impl FormatError {
+    fn code(&self) -> Code {
+        Code(match self {
             Self::FileTooLarge { .. } => 103,
             Self::OutOfRange { .. } => 104,
             Self::NotParsed { .. } => 105,
@@ -26,25 +64,19 @@ impl Coded for Error {
             Self::SelfDemand { .. } => 116,
             Self::FleetTooLarge { .. } => 117,
             Self::SeedOutOfRange { .. } => 118,
-            Self::UnknownNetwork { .. } => 119,
             Self::NotOneOf { .. } => 121,
             Self::RouteToItself { .. } => 122,
-            Self::NoSuchMember { .. } => 123,
             Self::WrongKind { .. } => 130,
             Self::TableRow { .. } => 131,
             Self::TableWithoutFolder { .. } => 132,
             Self::GivenTwice { .. } => 133,
             Self::UnfitSetting { .. } => 134,
-            Self::Output(refusal) => return refusal.code(),
         })
     }
 
-    fn hint(&self) -> Option<&str> {
+    fn hint(&self) -> Option<&'static str> {
         match self {
             Self::OutOfRange { hint, .. } => *hint,
-            Self::CannotWrite { .. } => {
-                Some("what was there before under this name is still there, unchanged")
-            }
             Self::StartAfterEnd { .. } => {
                 Some("times go on past midnight: half past one at night is 25:30:00")
             }
@@ -55,18 +87,6 @@ impl Coded for Error {
             Self::PeriodOrder { .. } => Some(
                 "a period lasts until the next one starts, the last one for the rest of the day",
             ),
-            Self::SeedOutOfRange { limit: SEED_LIMIT, .. } => {
-                Some("the limit is 2^53: every JSON reader holds whole numbers below it exactly")
-            }
-            Self::SeedOutOfRange { .. } => {
-                Some("seeds for comparison, validation and training are kept apart by their size")
-            }
-            Self::UnknownNetwork { meant: Some(meant), .. } => Some(meant),
-            Self::UnknownNetwork { .. } => Some("a network file is TOML, see networks/paper.toml"),
-            Self::Output(refusal) => refusal.hint(),
-            Self::NoSuchMember { .. } => Some(
-                "members are named as in the network file, entries of a list by id (in the fleet by type), position or *",
-            ),
             Self::WrongKind { expected: FileKind::Scenario, .. } => Some(
                 "`vertifleet scenario FILE --seed 1 --output DAY.json` draws a scenario from a network",
             ),
@@ -76,15 +96,10 @@ impl Coded for Error {
             Self::TableRow { .. } => Some(
                 "a table has the columns period,from,to,passengers, with commas between them and a decimal point in numbers",
             ),
+            Self::SeedOutOfRange { .. } => {
+                Some("the limit is 2^53: every JSON reader holds whole numbers below it exactly")
+            }
             _ => None,
-        }
-    }
-
-    fn exit(&self) -> Exit {
-        match self {
-            Self::CannotWrite { .. } => Exit::Failed,
-            Self::Output(refusal) => refusal.exit(),
-            _ => Exit::Input,
         }
     }
 }

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use crate::limits::{self, number};
 use crate::raw::{Positions, RawRoute, each};
-use crate::{Error, Matrix, Route};
+use crate::{FormatError, Matrix, Route};
 
 /// How much shorter than the straight line a corridor may be, as a share: lengths are rounded, and
 /// taken from maps.
@@ -27,9 +27,8 @@ pub(crate) fn corridors(
     raw: Vec<RawCorridor>,
     places: &Positions,
     distance_mi: &mut Matrix<f64>,
-    origin: &str,
-) -> Result<Vec<Route>, Error> {
-    each(raw, |corridor, at| corridor.check(at, places, distance_mi, origin))
+) -> Result<Vec<Route>, FormatError> {
+    each(raw, |corridor, at| corridor.check(at, places, distance_mi))
 }
 
 impl RawCorridor {
@@ -40,20 +39,18 @@ impl RawCorridor {
         at: usize,
         places: &Positions,
         distance_mi: &mut Matrix<f64>,
-        origin: &str,
-    ) -> Result<Route, Error> {
+    ) -> Result<Route, FormatError> {
         let Self { from, to, both_ways, length_mi } = self;
         let member = format!("corridors[{at}]");
-        let route = RawRoute { from, to, both_ways }.check(places, &member, origin)?;
+        let route = RawRoute { from, to, both_ways }.check(places, &member)?;
         let Some(length_mi) = length_mi.filter(|_| route.from != route.to) else {
             return Ok(route);
         };
         let member = || format!("{member}: length_mi");
-        limits::DISTANCE_MI.check(length_mi, origin, member)?;
+        limits::DISTANCE_MI.check(length_mi, member)?;
         let straight_mi = distance_mi[(route.from, route.to)];
         if length_mi < (1.0 - ROUNDING) * straight_mi {
-            return Err(Error::OutOfRange {
-                origin: origin.to_owned(),
+            return Err(FormatError::OutOfRange {
                 member: member(),
                 rule: format!("at least {straight_mi:.2}, the straight line"),
                 found: number(length_mi),

@@ -14,7 +14,7 @@ use csv::ByteRecord;
 use crate::demand_model::RawHourlyDemand;
 use crate::parse::{shortened, without_mark};
 use crate::paths::origin;
-use crate::{Error, Time, input, limits};
+use crate::{Error, FormatError, Time, input, limits};
 
 const COLUMNS: [&str; 4] = ["period", "from", "to", "passengers"];
 
@@ -29,17 +29,15 @@ pub(crate) fn inlined(
     let csv = input::read_at_most(table, input::LONGEST_TABLE)?;
     let reader = Reader {
         csv: without_mark(&csv),
-        origin: origin(table),
         periods: raw.periods.iter().copied().zip(0..).collect(),
         vertiports: vertiports.iter().map(|id| id.as_bytes()).zip(0..).collect(),
     };
-    let pairs = toml::Value::Array(
-        reader.pairs()?.iter().map(|pair| pair_value(pair, vertiports)).collect(),
-    );
+    let pairs = reader.pairs().map_err(|error| error.in_file(&origin(table)))?;
+    let pairs = pairs.iter().map(|pair| pair_value(pair, vertiports)).collect();
     let mut file: toml::Table = toml::from_str(text).expect("the text has been read before");
     if let Some(toml::Value::Table(hourly)) = file.get_mut("hourly_demand") {
         hourly.remove("table");
-        hourly.insert("pairs".to_owned(), pairs);
+        hourly.insert("pairs".to_owned(), toml::Value::Array(pairs));
     }
     Ok(toml::to_string(&file).expect("what was read can be written"))
 }
@@ -68,14 +66,13 @@ fn pair_value(pair: &Pair, vertiports: &[&str]) -> toml::Value {
 /// A table that is being read.
 struct Reader<'a> {
     csv: &'a [u8],
-    origin: String,
     periods: HashMap<Time, usize>,
     vertiports: HashMap<&'a [u8], usize>,
 }
 
 impl Reader<'_> {
     /// The pairs of the table in the order in which they first appear.
-    fn pairs(&self) -> Result<Vec<Pair>, Error> {
+    fn pairs(&self) -> Result<Vec<Pair>, FormatError> {
         let mut csv =
             csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(self.csv);
         let mut record = ByteRecord::new();
@@ -96,8 +93,7 @@ impl Reader<'_> {
             let row = Row { table: self, record: &record };
             let (period, ends, mean) = row.read()?;
             if let Some(before) = begins.insert((period, ends), row.begin()) {
-                return Err(Error::GivenTwice {
-                    origin: self.origin.clone(),
+                return Err(FormatError::GivenTwice {
                     member: row.name(),
                     what: format!(
                         "the demand of the period and pair of line {}",
@@ -131,15 +127,14 @@ struct Row<'a> {
 
 impl Row<'_> {
     /// Reads the row's period, the ends of its pair, and the mean.
-    fn read(&self) -> Result<(usize, (usize, usize), f64), Error> {
+    fn read(&self) -> Result<(usize, (usize, usize), f64), FormatError> {
         if self.record.len() != COLUMNS.len() {
             let rule = format!("of {} values", COLUMNS.len());
             return Err(self.wrong("a row", rule, &self.whole()));
         }
         let (period, ends) = (self.period()?, (self.vertiport(1)?, self.vertiport(2)?));
         if ends.0 == ends.1 {
-            return Err(Error::RouteToItself {
-                origin: self.table.origin.clone(),
+            return Err(FormatError::RouteToItself {
                 member: self.name(),
                 vertiport: self.text(1).into_owned(),
             });
@@ -147,18 +142,18 @@ impl Row<'_> {
         let mean = self.text(3).parse().ok();
         let mean = mean.ok_or_else(|| self.wrong_value(3, "a number"))?;
         let member = || format!("{}: {}", self.name(), COLUMNS[3]);
-        limits::DEMAND_MEAN.check(mean, &self.table.origin, member)?;
+        limits::DEMAND_MEAN.check(mean, member)?;
         Ok((period, ends, mean))
     }
 
-    fn period(&self) -> Result<usize, Error> {
+    fn period(&self) -> Result<usize, FormatError> {
         let start: Option<Time> = self.text(0).parse().ok();
         let start = start.ok_or_else(|| self.wrong_value(0, "a time as HH:MM:SS"))?;
         let period = self.table.periods.get(&start).copied();
         period.ok_or_else(|| self.unknown(0, "starts of demand periods"))
     }
 
-    fn vertiport(&self, column: usize) -> Result<usize, Error> {
+    fn vertiport(&self, column: usize) -> Result<usize, FormatError> {
         let position = self.table.vertiports.get(&self.record[column]).copied();
         position.ok_or_else(|| self.unknown(column, "vertiports"))
     }
@@ -180,22 +175,20 @@ impl Row<'_> {
         format!("line {}", self.table.line(self.begin()))
     }
 
-    fn unknown(&self, column: usize, list: &'static str) -> Error {
-        Error::UnknownId {
-            origin: self.table.origin.clone(),
+    fn unknown(&self, column: usize, list: &'static str) -> FormatError {
+        FormatError::UnknownId {
             member: format!("{}: {}", self.name(), COLUMNS[column]),
             found: shortened(&self.text(column), 64),
             list,
         }
     }
 
-    fn wrong_value(&self, column: usize, rule: &str) -> Error {
+    fn wrong_value(&self, column: usize, rule: &str) -> FormatError {
         self.wrong(COLUMNS[column], rule.to_owned(), &self.text(column))
     }
 
-    fn wrong(&self, column: &'static str, rule: String, found: &str) -> Error {
-        Error::TableRow {
-            origin: self.table.origin.clone(),
+    fn wrong(&self, column: &'static str, rule: String, found: &str) -> FormatError {
+        FormatError::TableRow {
             line: self.table.line(self.begin()),
             column,
             rule,

@@ -9,14 +9,14 @@ use std::path::Path;
 use super::sites::Sites;
 use super::{DemandModels, FORMAT, RawNetwork, fleet, name, network, start_stands, time_zone};
 use crate::raw::Positions;
-use crate::{Error, parse};
+use crate::{Error, FormatError, parse};
 
 /// The errors that have been found.
-struct Found(Vec<Error>);
+struct Found(Vec<FormatError>);
 
 impl Found {
     /// Keeps the error, or returns what was checked.
-    fn check<T>(&mut self, outcome: Result<T, Error>) -> Option<T> {
+    fn check<T>(&mut self, outcome: Result<T, FormatError>) -> Option<T> {
         outcome.map_err(|error| self.0.push(error)).ok()
     }
 }
@@ -25,62 +25,62 @@ impl Found {
 pub(crate) fn findings(text: &str, folder: Option<&Path>, origin: &str) -> Vec<Error> {
     let Err(first) = network(text, folder, origin) else { return Vec::new() };
     let text = text.strip_prefix(parse::MARK).unwrap_or(text);
-    let Ok(raw) = parse::toml::<RawNetwork>(text, FORMAT, origin) else { return vec![first] };
+    let Ok(raw) = parse::toml::<RawNetwork>(text, FORMAT) else { return vec![first] };
     let mut found = Found(Vec::new());
-    raw.findings(&mut found, origin);
+    raw.findings(&mut found);
     // What only shows in the whole, such as distances or a table of demand, comes last.
-    let said = first.to_string();
-    if found.0.iter().all(|error| error.to_string() != said) {
-        found.0.push(first);
+    let message = first.to_string();
+    let mut found: Vec<Error> = found.0.into_iter().map(|error| error.in_file(origin)).collect();
+    if found.iter().all(|error| error.to_string() != message) {
+        found.push(first);
     }
-    found.0
+    found
 }
 
 impl RawNetwork {
-    fn findings(self, found: &mut Found, origin: &str) {
-        found.check(name(&self.name, origin));
-        found.check(self.time_zone.as_deref().map_or(Ok(()), |zone| time_zone(zone, origin)));
-        found.check(self.operations.check(origin));
+    fn findings(self, found: &mut Found) {
+        found.check(name(&self.name));
+        found.check(self.time_zone.as_deref().map_or(Ok(()), time_zone));
+        found.check(self.operations.check());
         let vertiports = self.vertiports.len();
         found.check(
-            self.start_stands
-                .map_or(Ok(()), |raw| start_stands(raw, vertiports, origin).map(|_| ())),
+            self.start_stands.map_or(Ok(()), |raw| start_stands(raw, vertiports).map(|_| ())),
         );
         let types = self.aircraft_types.len();
         let kinds: Vec<_> = self
             .aircraft_types
             .into_iter()
             .enumerate()
-            .filter_map(|(at, raw)| found.check(raw.check(at, origin)))
+            .filter_map(|(at, raw)| found.check(raw.check(at)))
             .collect();
         let costs = self.tariffs.site_costs_usd();
         let before = found.0.len();
         for (at, site) in self.vertiports.iter().enumerate() {
-            found.check(site.clone().check(at, costs, origin));
+            found.check(site.clone().check(at, costs));
         }
         if found.0.len() > before {
             return;
         }
         let Some(Sites { vertiports, mut distance_mi }) =
-            found.check(Sites::of(self.vertiports, costs, origin))
+            found.check(Sites::of(self.vertiports, costs))
         else {
             return;
         };
-        let Some(places) = found.check(Positions::of_vertiports(&vertiports, origin)) else {
+        let Some(places) = found.check(Positions::of_vertiports(&vertiports)) else {
             return;
         };
         if kinds.len() == types {
-            found.check(fleet(&self.fleet, &kinds, &vertiports, origin));
+            found.check(fleet(&self.fleet, &kinds, &vertiports));
         }
         for (at, raw) in self.corridors.into_iter().flatten().enumerate() {
-            found.check(raw.check(at, &places, &mut distance_mi, origin));
+            found.check(raw.check(at, &places, &mut distance_mi));
         }
         for (at, raw) in self.closures.into_iter().enumerate() {
-            found.check(raw.check(at, &places, &vertiports, origin));
+            found.check(raw.check(at, &places, &vertiports));
         }
-        found.check(self.disturbances.check(&places, vertiports.len(), origin));
-        found.check(self.market.check(&places, vertiports.len(), origin));
-        found.check(self.feature_scales.map_or(Ok(()), |raw| raw.check(origin).map(|_| ())));
+        found.check(self.disturbances.check(&places, vertiports.len()));
+        found.check(self.market.check(&places, vertiports.len()));
+        found.check(self.feature_scales.map_or(Ok(()), |raw| raw.check().map(|_| ())));
         let models = DemandModels {
             equation_1: self.demand,
             daily: self.daily_demand,
@@ -89,11 +89,10 @@ impl RawNetwork {
             uniform: self.uniform_demand,
         };
         let is_given = models.count() > 0;
-        if let Some(demand) = is_given
-            .then(|| found.check(models.single_table(&vertiports, &places, origin)))
-            .flatten()
+        if let Some(demand) =
+            is_given.then(|| found.check(models.single_table(&vertiports, &places))).flatten()
         {
-            found.check(self.tariffs.check(demand.periods.len(), &places, origin));
+            found.check(self.tariffs.check(demand.periods.len(), &places));
         }
     }
 }

@@ -20,7 +20,7 @@ use serde::Deserialize;
 
 use super::tariffs::RawReference;
 use crate::raw::{Positions, RawRoute, each};
-use crate::{Error, Fares, Matrix, VertiportIx, limits};
+use crate::{Fares, FormatError, Matrix, VertiportIx, limits};
 
 /// `[market]` of the network file.
 #[derive(Deserialize)]
@@ -69,21 +69,19 @@ impl RawMarket {
         self,
         places: &Positions,
         vertiports: usize,
-        origin: &str,
-    ) -> Result<Market, Error> {
-        limits::DEMAND_FACTOR
-            .check(self.demand_factor, origin, || "market: demand_factor".to_owned())?;
-        limits::ELASTICITY.check(self.elasticity, origin, || "market: elasticity".to_owned())?;
+    ) -> Result<Market, FormatError> {
+        limits::DEMAND_FACTOR.check(self.demand_factor, || "market: demand_factor".to_owned())?;
+        limits::ELASTICITY.check(self.elasticity, || "market: elasticity".to_owned())?;
         let mut elasticity = Matrix::from_fn(vertiports, |_, _| self.elasticity);
         let mut seen = HashSet::new();
         each(self.elasticities, |raw, at| {
             let member = format!("market: elasticities[{at}]");
-            limits::ELASTICITY.check(raw.elasticity, origin, || format!("{member}: elasticity"))?;
+            limits::ELASTICITY.check(raw.elasticity, || format!("{member}: elasticity"))?;
             let what = format!("the elasticity from {:?} to {:?}", raw.from, raw.to);
             let route = RawRoute { from: raw.from, to: raw.to, both_ways: false };
-            let route = route.check(places, &member, origin)?;
+            let route = route.check(places, &member)?;
             if !seen.insert((route.from, route.to)) {
-                return Err(Error::GivenTwice { origin: origin.to_owned(), member, what });
+                return Err(FormatError::GivenTwice { member, what });
             }
             elasticity[(route.from, route.to)] = raw.elasticity;
             Ok(())

@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use crate::limits::entries;
 use crate::raw::{Positions, RawRoute, each};
-use crate::{Closure, Error, Route, Time, Vertiport, VertiportIx, check};
+use crate::{Closure, FormatError, Route, Time, Vertiport, VertiportIx, check};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of a closure")]
@@ -31,25 +31,24 @@ pub(crate) fn closures(
     raw: Vec<RawScheduledClosure>,
     places: &Positions,
     vertiports: &[Vertiport],
-    origin: &str,
-) -> Result<Vec<Closure>, Error> {
+) -> Result<Vec<Closure>, FormatError> {
     let mut closures = Vec::new();
     for (at, raw) in raw.into_iter().enumerate() {
-        closures.extend(raw.check(at, places, vertiports, origin)?);
+        closures.extend(raw.check(at, places, vertiports)?);
         // The length is checked as the list grows, because each vertiport of a closure stands for
         // many routes.
-        at_most(closures.len(), origin)?;
+        at_most(closures.len())?;
     }
     Ok(closures)
 }
 
 /// Refuses more closures than a day may have, including those that are drawn.
-pub(crate) fn at_most(found: usize, origin: &str) -> Result<(), Error> {
+pub(crate) fn at_most(found: usize) -> Result<(), FormatError> {
     if found <= entries::CLOSURES {
         return Ok(());
     }
     let member = "closures, counted by routes, those of disturbances included,";
-    check::entry_count(origin, member, found, entries::CLOSURES)
+    check::entry_count(member, found, entries::CLOSURES)
 }
 
 impl RawScheduledClosure {
@@ -59,10 +58,9 @@ impl RawScheduledClosure {
         at: usize,
         places: &Positions,
         vertiports: &[Vertiport],
-        origin: &str,
-    ) -> Result<Vec<Closure>, Error> {
+    ) -> Result<Vec<Closure>, FormatError> {
         let (start, end, known) = (self.start, self.end, self.known);
-        let routes = self.routes(&format!("closures[{at}]"), places, vertiports, origin)?;
+        let routes = self.routes(&format!("closures[{at}]"), places, vertiports)?;
         Ok(routes.into_iter().map(|route| Closure { route, start, end, known }).collect())
     }
 
@@ -72,25 +70,24 @@ impl RawScheduledClosure {
         member: &str,
         places: &Positions,
         vertiports: &[Vertiport],
-        origin: &str,
-    ) -> Result<Vec<Route>, Error> {
-        check::span(self.start, self.end, origin, || member.to_owned())?;
+    ) -> Result<Vec<Route>, FormatError> {
+        check::span(self.start, self.end, || member.to_owned())?;
         let named = self.routes.len() + self.vertiports.len();
         let together = format!("{member}: routes and vertiports together");
-        check::entry_count(origin, &together, named, entries::CLOSURES)?;
+        check::entry_count(&together, named, entries::CLOSURES)?;
         let mut routes = each(self.routes, |raw, at| {
             let member = format!("{member}: routes[{at}]");
-            let route = raw.check(places, &member, origin)?;
+            let route = raw.check(places, &member)?;
             if route.from != route.to {
                 return Ok(route);
             }
             let vertiport = vertiports[route.from.at()].id.clone();
-            Err(Error::RouteToItself { origin: origin.to_owned(), member, vertiport })
+            Err(FormatError::RouteToItself { member, vertiport })
         })?;
         let mut closed = vec![false; vertiports.len()];
         for (at, id) in self.vertiports.iter().enumerate() {
             let place = || format!("{member}: vertiports[{at}]");
-            closed[places.position(id, origin, place)?] = true;
+            closed[places.position(id, place)?] = true;
         }
         routes.extend(routes_of(&closed));
         Ok(routes)

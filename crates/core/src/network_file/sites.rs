@@ -11,7 +11,7 @@ use serde::Deserialize;
 use super::tariffs::SiteCosts;
 use crate::limits::{self, Limits};
 use crate::raw::{chargers, each};
-use crate::{Degrees, Error, Matrix, Vertiport, check};
+use crate::{Degrees, FormatError, Matrix, Vertiport, check};
 
 /// Mean radius of the Earth (IUGG), miles.
 pub const EARTH_RADIUS_MI: f64 = 3_958.761_3;
@@ -50,15 +50,14 @@ pub(crate) enum Position {
 impl Sites {
     /// Checks the vertiports. `costs` are those of stands and chargers at vertiports that name
     /// none.
-    pub(crate) fn of(raw: Vec<RawSite>, costs: SiteCosts, origin: &str) -> Result<Self, Error> {
-        let sites = each(raw, |raw, at| raw.check(at, costs, origin))?;
+    pub(crate) fn of(raw: Vec<RawSite>, costs: SiteCosts) -> Result<Self, FormatError> {
+        let sites = each(raw, |raw, at| raw.check(at, costs))?;
         let on_globe =
             |(_, position): &&(Vertiport, Position)| matches!(position, Position::Globe(..));
         match sites.iter().filter(on_globe).count() {
             0 => Ok(Self::in_plane(sites.into_iter().map(|(vertiport, _)| vertiport).collect())),
             all if all == sites.len() => Ok(Self::on_globe(sites)),
-            some => Err(Error::NotOneOf {
-                origin: origin.to_owned(),
+            some => Err(FormatError::NotOneOf {
                 member: "vertiports".to_owned(),
                 choices: "exactly one of x_mi with y_mi (all of them) and latitude with longitude (all of them)",
                 found: 1 + usize::from(some > 0),
@@ -126,11 +125,10 @@ impl RawSite {
         self,
         at: usize,
         costs: SiteCosts,
-        origin: &str,
-    ) -> Result<(Vertiport, Position), Error> {
-        check::id(origin, || format!("vertiports[{at}]: id"), &self.id)?;
+    ) -> Result<(Vertiport, Position), FormatError> {
+        check::id(|| format!("vertiports[{at}]: id"), &self.id)?;
         let number = |value: f64, limits: &Limits, member: &str| {
-            limits.check(value, origin, || format!("vertiport {:?}: {member}", self.id))
+            limits.check(value, || format!("vertiport {:?}: {member}", self.id))
         };
         let position = match (self.x_mi, self.y_mi, self.latitude, self.longitude) {
             (Some(x_mi), Some(y_mi), None, None) => Position::Plane(x_mi, y_mi),
@@ -142,8 +140,7 @@ impl RawSite {
             (x_mi, y_mi, latitude, longitude) => {
                 let plane = x_mi.is_some() && y_mi.is_some();
                 let globe = latitude.is_some() && longitude.is_some();
-                return Err(Error::NotOneOf {
-                    origin: origin.to_owned(),
+                return Err(FormatError::NotOneOf {
                     member: format!("vertiport {:?}", self.id),
                     choices: "exactly one of x_mi with y_mi and latitude with longitude, and nothing of the other",
                     found: usize::from(plane) + usize::from(globe),
@@ -155,8 +152,8 @@ impl RawSite {
             Position::Globe(degrees) => (0.0, 0.0, Some(degrees)),
         };
         let member = || format!("vertiport {:?}: stands", self.id);
-        let stands = limits::STANDS.whole_number(self.stands, origin, member)?;
-        let chargers = chargers(&self.id, self.chargers, origin)?;
+        let stands = limits::STANDS.whole_number(self.stands, member)?;
+        let chargers = chargers(&self.id, self.chargers)?;
         let cost = |own: Option<f64>, usual_usd: f64, member: &str| {
             let cost_usd = own.unwrap_or(usual_usd);
             number(cost_usd, &limits::MONEY_USD, member).map(|()| cost_usd)

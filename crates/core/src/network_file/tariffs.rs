@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::demand_model::DemandModel;
 use crate::raw::{Positions, RawRoute, each};
-use crate::{Error, Fares, Matrix, VertiportIx, limits};
+use crate::{Fares, FormatError, Matrix, VertiportIx, limits};
 
 /// `[tariffs]` of the network file.
 #[derive(Clone, Deserialize)]
@@ -90,18 +90,17 @@ impl RawTariffs {
         mut self,
         periods: usize,
         places: &Positions,
-        origin: &str,
-    ) -> Result<Tariffs, Error> {
-        self.check_numbers("tariffs", periods, origin)?;
+    ) -> Result<Tariffs, FormatError> {
+        self.check_numbers("tariffs", periods)?;
         let pairs = std::mem::take(&mut self.pairs);
         let mut tariffs =
             Tariffs { rules: self, fares_usd: Vec::new(), passenger_costs_usd: Vec::new() };
-        tariffs.take_pairs("tariffs", pairs, places, origin)?;
+        tariffs.take_pairs("tariffs", pairs, places)?;
         Ok(tariffs)
     }
 
     /// Checks the numbers; `section` is where they stand in the file.
-    fn check_numbers(&self, section: &str, periods: usize, origin: &str) -> Result<(), Error> {
+    fn check_numbers(&self, section: &str, periods: usize) -> Result<(), FormatError> {
         for (member, value, limits) in [
             ("passenger_cost_usd_per_mi", self.passenger_cost_usd_per_mi, &limits::TARIFF),
             ("fare_usd_per_mi", self.fare_usd_per_mi, &limits::TARIFF),
@@ -115,17 +114,17 @@ impl RawTariffs {
             ("charger_cost_usd_per_day", self.charger_cost_usd_per_day, &limits::MONEY_USD),
             ("fare_level", self.fare_level, &limits::FARE_FACTOR),
         ] {
-            limits.check(value, origin, || format!("{section}: {member}"))?;
+            limits.check(value, || format!("{section}: {member}"))?;
         }
         if let Some(factors) = &self.fare_factors {
             let member = format!("{section}: fare_factors");
-            by_period(factors, &limits::FARE_FACTOR, periods, &member, origin)?;
+            by_period(factors, &limits::FARE_FACTOR, periods, &member)?;
         }
         let member = format!("{section}: energy_price_usd_per_kwh");
         let limits = &limits::ENERGY_PRICE_USD;
         match &self.energy_price_usd_per_kwh {
-            RawPrice::AllDay(price) => limits.check(*price, origin, || member),
-            RawPrice::ByPeriod(prices) => by_period(prices, limits, periods, &member, origin),
+            RawPrice::AllDay(price) => limits.check(*price, || member),
+            RawPrice::ByPeriod(prices) => by_period(prices, limits, periods, &member),
         }
     }
 }
@@ -138,26 +137,23 @@ impl Tariffs {
         section: &str,
         pairs: Vec<RawPairTariff>,
         places: &Positions,
-        origin: &str,
-    ) -> Result<(), Error> {
+    ) -> Result<(), FormatError> {
         let mut seen = HashSet::new();
         each(pairs, |pair, at| {
             let RawPairTariff { from, to, fare_usd, passenger_cost_usd } = pair;
             let member = format!("{section}: pairs[{at}]");
             let what = format!("the tariff from {from:?} to {to:?}");
             if from == to {
-                let (origin, vertiport) = (origin.to_owned(), from);
-                return Err(Error::RouteToItself { origin, member, vertiport });
+                return Err(FormatError::RouteToItself { member, vertiport: from });
             }
             let route = RawRoute { from, to, both_ways: false };
-            let route = route.check(places, &member, origin)?;
+            let route = route.check(places, &member)?;
             let ends = (route.from, route.to);
             if !seen.insert(ends) {
-                return Err(Error::GivenTwice { origin: origin.to_owned(), member, what });
+                return Err(FormatError::GivenTwice { member, what });
             }
             if fare_usd.is_none() && passenger_cost_usd.is_none() {
-                return Err(Error::NotOneOf {
-                    origin: origin.to_owned(),
+                return Err(FormatError::NotOneOf {
                     member,
                     choices: "at least one of fare_usd and passenger_cost_usd",
                     found: 0,
@@ -168,7 +164,7 @@ impl Tariffs {
                 ("passenger_cost_usd", passenger_cost_usd, &mut self.passenger_costs_usd),
             ] {
                 let Some(value) = value else { continue };
-                limits::MONEY_USD.check(value, origin, || format!("{member}: {name}"))?;
+                limits::MONEY_USD.check(value, || format!("{member}: {name}"))?;
                 list.push((ends, value));
             }
             Ok(())
@@ -182,12 +178,11 @@ impl Tariffs {
         reference: RawReference,
         periods: usize,
         places: &Positions,
-        origin: &str,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, FormatError> {
         let mut then = self.clone();
         if let Some(pairs) = reference.pairs {
             (then.fares_usd, then.passenger_costs_usd) = (Vec::new(), Vec::new());
-            then.take_pairs("market: reference", pairs, places, origin)?;
+            then.take_pairs("market: reference", pairs, places)?;
         }
         let rules = &mut then.rules;
         for (now, then) in [
@@ -203,7 +198,7 @@ impl Tariffs {
         if reference.fare_factors.is_some() {
             rules.fare_factors = reference.fare_factors;
         }
-        rules.check_numbers("market: reference", periods, origin)?;
+        rules.check_numbers("market: reference", periods)?;
         Ok(then)
     }
 
@@ -276,18 +271,16 @@ fn by_period(
     limits: &limits::Limits,
     periods: usize,
     member: &str,
-    origin: &str,
-) -> Result<(), Error> {
+) -> Result<(), FormatError> {
     if list.len() != periods {
-        return Err(Error::WrongShape {
-            origin: origin.to_owned(),
+        return Err(FormatError::WrongShape {
             member: member.to_owned(),
             expected: format!("an entry for each of {periods} periods"),
             found: list.len(),
         });
     }
     for (at, &value) in list.iter().enumerate() {
-        limits.check(value, origin, || format!("{member}[{at}]"))?;
+        limits.check(value, || format!("{member}[{at}]"))?;
     }
     Ok(())
 }

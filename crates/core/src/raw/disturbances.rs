@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use crate::limits;
 use crate::raw::{Positions, each};
-use crate::{AircraftIx, Closure, Error, Outage, Route, TakeoffDelays, Time, VertiportIx};
+use crate::{AircraftIx, Closure, FormatError, Outage, Route, TakeoffDelays, Time, VertiportIx};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of a route")]
@@ -16,14 +16,9 @@ pub(crate) struct RawRoute {
 }
 
 impl RawRoute {
-    pub(crate) fn check(
-        self,
-        places: &Positions,
-        member: &str,
-        origin: &str,
-    ) -> Result<Route, Error> {
+    pub(crate) fn check(self, places: &Positions, member: &str) -> Result<Route, FormatError> {
         let end = |id: &str, end: &str| {
-            places.position(id, origin, || format!("{member}: {end}")).map(VertiportIx::new)
+            places.position(id, || format!("{member}: {end}")).map(VertiportIx::new)
         };
         Ok(Route {
             from: end(&self.from, "from")?,
@@ -47,15 +42,10 @@ pub(crate) struct RawClosure {
 }
 
 impl RawClosure {
-    pub(crate) fn check(
-        self,
-        at: usize,
-        places: &Positions,
-        origin: &str,
-    ) -> Result<Closure, Error> {
+    pub(crate) fn check(self, at: usize, places: &Positions) -> Result<Closure, FormatError> {
         let Self { from, to, both_ways, start, end, known } = self;
         let route = RawRoute { from, to, both_ways };
-        let route = route.check(places, &format!("closures[{at}]"), origin)?;
+        let route = route.check(places, &format!("closures[{at}]"))?;
         Ok(Closure { route, start, end, known })
     }
 }
@@ -69,9 +59,9 @@ pub(crate) struct RawOutage {
 }
 
 impl RawOutage {
-    pub(crate) fn check(self, at: usize, fleet: &Positions, origin: &str) -> Result<Outage, Error> {
+    pub(crate) fn check(self, at: usize, fleet: &Positions) -> Result<Outage, FormatError> {
         let member = || format!("outages[{at}]: aircraft");
-        let aircraft = AircraftIx::new(fleet.position(&self.aircraft, origin, member)?);
+        let aircraft = AircraftIx::new(fleet.position(&self.aircraft, member)?);
         Ok(Outage { aircraft, start: self.start, end: self.end })
     }
 }
@@ -84,13 +74,13 @@ pub(crate) struct RawTakeoffDelays {
 }
 
 impl RawTakeoffDelays {
-    pub(crate) fn check(self, origin: &str) -> Result<TakeoffDelays, Error> {
-        let slot_s = limits::SLOT_S
-            .whole_number(self.slot_s, origin, || "takeoff_delays: slot_s".to_owned())?;
+    pub(crate) fn check(self) -> Result<TakeoffDelays, FormatError> {
+        let slot_s =
+            limits::SLOT_S.whole_number(self.slot_s, || "takeoff_delays: slot_s".to_owned())?;
         let delay_s = each(self.delay_s, |delays, slot| {
             each(delays, |delay, at| {
                 let member = || format!("takeoff_delays: delay_s[{slot}][{at}]");
-                limits::PHASE_S.whole_number(delay, origin, member)
+                limits::PHASE_S.whole_number(delay, member)
             })
         })?;
         Ok(TakeoffDelays { slot_s, delay_s })

@@ -277,13 +277,7 @@ fn error_of_table(folder: &std::path::Path, table: &[u8]) -> Option<Error> {
     std::fs::write(folder.join("net.toml"), hourly("table = \"demand.csv\""))
         .expect("a free folder");
     let mut error = Network::read(folder.join("net.toml")).err()?;
-    if let Error::TableRow { origin, .. }
-    | Error::UnknownId { origin, .. }
-    | Error::OutOfRange { origin, .. }
-    | Error::RouteToItself { origin, .. }
-    | Error::GivenTwice { origin, .. }
-    | Error::FileTooLarge { origin, .. } = &mut error
-    {
+    if let Error::InFile { origin, .. } = &mut error {
         assert_eq!(*origin, folder.join("demand.csv").display().to_string());
         "demand.csv".clone_into(origin);
     }
