@@ -83,7 +83,7 @@ impl BestItineraries<'_> {
     fn payment(&self, ready: Ready) -> i64 {
         let penalty = self.day.penalty.as_ref().filter(|_| ready.owes);
         penalty.map_or(0, |penalty| {
-            penalty.at(&self.day.layers[ready.layer], ready.at)[ready.second as usize]
+            penalty.at(self.day.layers[ready.layer].kind, ready.at)[ready.second as usize]
         })
     }
 

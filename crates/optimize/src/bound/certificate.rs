@@ -230,7 +230,7 @@ impl LayerPass<'_> {
                 let afterwards = if past < past_slot { within[past] } else { own[past] };
                 wait_freely(&mut within[begin..past], afterwards);
             }
-            let payments = &penalty.at(layer, from)[begin..past];
+            let payments = &penalty.at(layer.kind, from)[begin..past];
             best.iter_mut().zip(payments).for_each(|(best, payment)| *best -= payment);
         }
         own[begin..past].copy_from_slice(best);

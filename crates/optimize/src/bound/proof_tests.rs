@@ -75,7 +75,7 @@ fn payments(expanded: &TimeExpandedDay, layer: usize, trace: &Trace, aircraft: A
     for row in trace.rows.iter().filter(|row| row.aircraft == aircraft) {
         let second = (row.time.seconds() - expanded.slices.start_s(0)) as usize;
         if second >= past_slot {
-            paid += penalty.at(&expanded.layers[layer], row.from.at())[second];
+            paid += penalty.at(expanded.layers[layer].kind, row.from.at())[second];
             past_slot = penalty.past_slot(second);
         }
     }

@@ -8,7 +8,8 @@ use vertifleet_core::{Network, Scenario, Stop, TakeoffDelays};
 
 use super::certificate::Certificate;
 use super::ladder::{Relaxed, search};
-use super::penalty::{Expected, Penalty};
+use super::penalty::Penalty;
+use super::penalty::worths::Expected;
 use super::prices::whole;
 use super::time_expanded_day::TimeExpandedDay;
 use super::{Bound, Step, Unless, upper_bound_unless};
