@@ -186,7 +186,7 @@ impl TrainingWatch for Shown {
     }
 
     fn has_learned(&self, curve: &Curve, steps_per_second: f64) {
-        self.bar.say(format!("{steps_per_second:.0} decisions/s"));
+        self.bar.show_message(format!("{steps_per_second:.0} decisions/s"));
         let (Some(watch), Some(row)) = (&self.watch, last_row(curve)) else { return };
         let called = Python::attach(|py| watch.call1(py, (plain(py, &row)?,)).map(|_| ()));
         if let Err(error) = called {

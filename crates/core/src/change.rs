@@ -21,18 +21,19 @@ pub use member_path::split_path;
 
 impl Network {
     /// Returns the network whose file differs from this one's in some members. A path names members
-    /// from the outside in, separated by dots; a name with a dot in it stands in double quotes. An
-    /// entry of a list is named by its `id` (in the fleet by its `type`) or by its position from 0,
-    /// and `*` names all of them: `fleet.0.count`, `fleet.midnight.count`, `vertiports.V3.stands`,
-    /// `vertiports.*.stands`. Changes are made in order, so that later ones win. Where stands
-    /// change, the changed file says with `start_stands` that aircraft start as they do on this
-    /// network; where fares change and passengers respond, it says with `market.reference` that the
-    /// demand is the one at this network's fares. Everything else stays as it was written, comments
-    /// too. The changed file has to obey the format like any other.
+    /// from the outside in, separated by dots; a name with a dot in it is written in double quotes.
+    /// An entry of a list is named by its `id` (in the fleet by its `type`) or by its position from
+    /// 0, and `*` names all of them: `fleet.0.count`, `fleet.midnight.count`,
+    /// `vertiports.V3.stands`, `vertiports.*.stands`. Changes are made in order, so that later ones
+    /// win. Where stands change, the changed file has `start_stands`, so that aircraft start as
+    /// they do on this network. Where fares change and passengers respond, it has
+    /// `market.reference`, so that the demand is the one at this network's fares. Everything else
+    /// stays as it was written, comments too. The changed file has to obey the format like any
+    /// other.
     ///
     /// # Errors
-    /// [`Error::NoSuchMember`] if a path leads nowhere, [`FormatError::NotParsed`] if a value has no form
-    /// in TOML, and the errors of [`from_toml`](Self::from_toml).
+    /// [`Error::NoSuchMember`] if a path leads nowhere, [`FormatError::NotParsed`] if a value has
+    /// no form in TOML, and the errors of [`from_toml`](Self::from_toml).
     pub fn changed<'a>(
         &self,
         changes: impl IntoIterator<Item = (&'a String, &'a Value)>,

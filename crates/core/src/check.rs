@@ -1,6 +1,7 @@
 //! The rules that every day obeys, checked once: code that holds a [`Scenario`] may rely on them.
 //!
-//! Bounds of single numbers are in `limits.rs`. This file checks what has to agree with what.
+//! Bounds of single numbers are in `limits.rs`. This file checks that the members of a day agree
+//! with each other.
 
 use std::collections::HashSet;
 

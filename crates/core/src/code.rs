@@ -18,7 +18,7 @@ impl fmt::Display for Code {
     }
 }
 
-/// An expected error: one that has a stable number and that the user can mostly put right.
+/// An expected error: one that has a stable number and that the user can usually correct.
 pub trait Coded: std::error::Error {
     /// The stable number.
     fn code(&self) -> Code;

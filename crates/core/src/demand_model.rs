@@ -38,8 +38,7 @@ pub(crate) struct DemandModel {
     /// Start of each period.
     pub(crate) periods: Vec<Time>,
     kind: Kind,
-    /// What the market makes of the demand: a factor for each pair in each period. `None` where all
-    /// are 1.
+    /// The response of the market: a factor for each pair in each period. `None` where all are 1.
     pub(crate) factors: Option<Vec<Matrix<f64>>>,
 }
 

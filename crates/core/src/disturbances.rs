@@ -1,8 +1,8 @@
-//! What may disturb a day: demand that differs from the forecast, late take-offs, closed routes,
-//! aircraft out of service. No policy knows disturbances in advance, except for closures that are
-//! announced.
+//! The disturbances of a day: demand that differs from the forecast, late take-offs, closed routes,
+//! aircraft out of service. Disturbances are hidden from policies in advance, except for closures
+//! that are announced.
 //!
-//! All disturbances stand in the scenario, so that every policy meets the same ones. The simulator
+//! The scenario contains all disturbances, so that every policy meets the same ones. The simulator
 //! decides which of them a policy may see, and when. A quiet day has none; all days of `paper` are
 //! quiet.
 

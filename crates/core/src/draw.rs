@@ -1,8 +1,8 @@
 //! Draws one day of a network from a seed: demand, start positions (§V.A) and disturbances.
 //!
-//! Demand, start positions and each kind of disturbance have a random stream of their own, so that
-//! a change in how one of them is drawn leaves the others as they were. The generator and the
-//! normal distribution are plain arithmetic, the same on every machine, and counts are rounded.
+//! Demand, start positions and each kind of disturbance have separate random streams, so that a
+//! change in how one of them is drawn leaves the others as they were. The generator and the normal
+//! distribution are plain arithmetic, the same on every machine, and counts are rounded.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -38,8 +38,8 @@ impl Network {
     /// Draws the day of this seed, called `{network}-{seed}`. The same seed always gives the same
     /// day.
     ///
-    /// Aircraft start as if the vertiports had the stands that `start_stands` of the file names, as
-    /// far as there are stands for them; the others find a place by chance. A network that was
+    /// Aircraft start as if the vertiports had the stands that `start_stands` of the file names.
+    /// Aircraft for which there is no such stand are placed at random. A network that was
     /// [changed](Self::changed) keeps those of its base, so that the days of both are comparable
     /// (common random numbers): one more stand moves no aircraft, one less moves only those who
     /// stood there, and further aircraft leave the first ones where they were.
@@ -118,8 +118,8 @@ impl Network {
     }
 }
 
-/// Where `aircraft` aircraft start: where they would if the vertiports had `start_stands`, as far
-/// as there are stands.
+/// Where `aircraft` aircraft start: where they would if the vertiports had `start_stands`, or at
+/// random where there is no such stand.
 fn start_positions(
     start_stands: &[u16],
     mut left: Vec<u16>,

@@ -1,5 +1,5 @@
-//! Expected errors of reading, checking, writing and drawing: what is wrong in the user's files,
-//! and what to do.
+//! Expected errors of reading, checking, writing and drawing: causes in the user's files, and
+//! remedies.
 //!
 //! Messages are lower-case fragments that name file, member, value and rule.
 //! `docs/src/reference/errors.md` is written from the comments here, which give the cause first and
@@ -30,9 +30,9 @@ pub enum Error {
     },
 
     /// V102 file cannot be written. The operating system does not let the file be written: the
-    /// folder does not exist, is not yours, or is full. What was there before is still there. A
-    /// report replaces its whole folder. So this folder can be neither the one that the program
-    /// runs in nor a mount point.
+    /// folder does not exist, is not yours, or is full. The former file is still there. A report
+    /// replaces its whole folder. So this folder can be neither the one that the program runs in
+    /// nor a mount point.
     ///
     /// Fix: create the folder, free some space, or choose a path that may be written.
     #[error("{origin}: cannot be written: {cause}")]
@@ -95,7 +95,7 @@ pub enum Error {
         name: String,
         /// The names of the shipped networks.
         shipped: String,
-        /// A question whether a similar shipped name was meant, if there is one.
+        /// The question whether the user meant a similar shipped name, if there is one.
         meant: Option<String>,
     },
 

@@ -1,4 +1,4 @@
-//! P_ij: what a passenger pays, the same all day or by demand period.
+//! P_ij: the fare of a passenger, the same all day or by demand period.
 
 use crate::Matrix;
 

@@ -24,8 +24,8 @@ pub(crate) const LONGEST_TABLE: u64 = 16 << 20;
 pub fn read_at_most(path: &Path, longest: u64) -> Result<Vec<u8>, Error> {
     let cannot = |cause| Error::CannotRead { origin: origin(path), cause };
     let mut text = Vec::new();
-    // Reading one byte more than allowed tells a file that is too long from one that just fits,
-    // even where the length is not known beforehand (a pipe).
+    // One byte more than allowed is read, because a file that is too long must be distinguished
+    // from one that just fits, even where the length is not known beforehand (a pipe).
     File::open(path).map_err(cannot)?.take(longest + 1).read_to_end(&mut text).map_err(cannot)?;
     check_length(&text, longest).map_err(|error| error.in_file(&origin(path)))?;
     Ok(text)

@@ -2,8 +2,8 @@
 //!
 //! A [`Scenario`] is one operating day with everything exogenous in it and nothing left to be
 //! drawn. Days are drawn from a [`Network`]. Both are read in two stages: raw text, then checked
-//! types that cannot hold nonsense. This crate builds on no other crate here, and has no simulation
-//! clock, no policies and no motion. Its only randomness draws days and networks.
+//! types that cannot hold invalid values. This crate builds on no other crate here, and has no
+//! simulation clock, no policies and no motion. Its only randomness draws days and networks.
 //!
 //! `network_file` turns a network file into a [`Network`], and `change` makes a network from
 //! another one. `scenario_file` reads and writes scenarios, and `check` has the rules that every

@@ -1,7 +1,7 @@
 //! Bounds of every number in a network or scenario, in one place, and their wording in messages.
 //!
 //! The bounds are wide. They keep every sum of durations, seats or dollars within the range of its
-//! type, and they reveal a slipped decimal point when the file is read rather than as a strange
+//! type, and they reveal a misplaced decimal point when the file is read rather than as a strange
 //! result.
 
 use std::fmt::Debug;
@@ -153,12 +153,11 @@ pub(crate) const MONEY_USD: Limits = Limits::between(0.0, 1e6);
 pub(crate) const ENERGY_PRICE_USD: Limits =
     Limits::between(0.0, 1e3).hint("the price is in dollars per kWh");
 /// Tariffs in dollars a passenger-mile, and the numbers that turn costs into fares. The fares have
-/// bounds of their own.
+/// separate bounds.
 pub(crate) const TARIFF: Limits = Limits::between(0.0, 1e3);
 pub(crate) const FEATURE_SCALE: Limits =
-    Limits::above_zero(1e9).hint("a learned policy sees each quantity divided by its scale");
-/// A type may have no aircraft, so that studies can do without it; the whole fleet has one at
-/// least.
+    Limits::above_zero(1e9).hint("a learned policy observes each quantity divided by its scale");
+/// A type may have no aircraft, so that studies can remove it; the whole fleet has at least one.
 pub(crate) const FLEET_COUNT: Limits = Limits::whole(0, 10_000);
 /// Mean and standard deviation of a period's demand; far enough below `PASSENGERS` for any draw to
 /// stay within it.

@@ -1,7 +1,7 @@
-//! Finds the name that was probably meant by a mistyped one.
+//! Finds the name that a mistyped one probably means.
 
-/// The name that differs from `typed` in the fewest letters, if so few differ that it may have been
-/// meant: at most one in three. Capitals and small letters count as the same.
+/// The name that differs from `typed` in the fewest letters, if few enough differ for a typing
+/// error: at most one in three. Capitals and small letters count as the same.
 pub fn nearest<'a>(typed: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let typed = typed.to_lowercase();
     let most = typed.chars().count().div_ceil(3);
@@ -18,10 +18,10 @@ fn letters_that_differ(one: &str, other: &str) -> usize {
     let mut rows: Vec<Vec<usize>> = vec![(0..=other.len()).collect()];
     for (i, letter) in one.iter().enumerate() {
         let mut row = vec![i + 1];
-        for (j, beside) in other.iter().enumerate() {
-            let exchanged = rows[i][j] + usize::from(letter != beside);
+        for (j, other_letter) in other.iter().enumerate() {
+            let exchanged = rows[i][j] + usize::from(letter != other_letter);
             let mut least = exchanged.min(rows[i][j + 1] + 1).min(row[j] + 1);
-            if i > 0 && j > 0 && one[i - 1] == *beside && *letter == other[j - 1] {
+            if i > 0 && j > 0 && one[i - 1] == *other_letter && *letter == other[j - 1] {
                 least = least.min(rows[i - 1][j - 1] + 1);
             }
             row.push(least);

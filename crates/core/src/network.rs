@@ -64,8 +64,8 @@ impl Network {
         Ok(network)
     }
 
-    /// Every error of a network file that can be told at once, for people who are writing one; none
-    /// if it can be read.
+    /// All errors of a network file that can be found in one pass, for people who are writing one;
+    /// none if it can be read.
     ///
     /// # Errors
     /// The file cannot be read, is no text, or is too long.
@@ -77,8 +77,8 @@ impl Network {
         Ok(network_file::findings(text, path.parent(), &origin))
     }
 
-    /// Reads and checks the text of a network file, which must not name a table beside it. `origin`
-    /// stands for the file in messages.
+    /// Reads and checks the text of a network file, which must not name a table in another file.
+    /// `origin` names the text in messages.
     ///
     /// # Errors
     /// The text is longer than 32 MiB or breaks a rule of the format; the message names the member.
@@ -102,7 +102,7 @@ impl Network {
     }
 
     /// Finds the shipped network of this name, the random comparison network of this number
-    /// (`random:7`), the one of this number with so many vertiports at random places
+    /// (`random:7`), the one of this number with a given number of vertiports at random places
     /// (`random-places:8:7`), or else reads the network file at this path.
     ///
     /// # Errors
@@ -139,8 +139,8 @@ impl Network {
         format!("{RANDOM}{number}")
     }
 
-    /// The name by which [`find`](Self::find) finds the comparison network of this number with so
-    /// many vertiports at random places.
+    /// The name by which [`find`](Self::find) finds the comparison network of this number with
+    /// `vertiports` vertiports at random places.
     pub fn random_places_name(vertiports: usize, number: u64) -> String {
         format!("{RANDOM_PLACES}{vertiports}:{number}")
     }
@@ -183,7 +183,8 @@ impl Network {
         self.idle_day.aircraft.len()
     }
 
-    /// What the fleet, the stands and the chargers cost whatever is decided, dollars a day.
+    /// The cost of the fleet, the stands and the chargers, which no decision changes; dollars a
+    /// day.
     pub fn fixed_cost_usd(&self) -> f64 {
         self.idle_day.fixed_cost_usd()
     }
@@ -221,8 +222,8 @@ impl Network {
     }
 
     /// The day on which everything is as its mean: demand is rounded to whole passengers, nothing
-    /// is late, closed or out of service but what is so every day, and aircraft stand anywhere that
-    /// is allowed. For pictures and tables.
+    /// is late, closed or out of service except for closures of every day, and aircraft stand
+    /// anywhere that is allowed. For pictures and tables.
     pub fn mean_day(&self) -> Scenario {
         let mut day = self.idle_day.clone().into_day();
         day.name.clone_from(&self.name);

@@ -85,7 +85,7 @@ struct RawFleet {
 pub(crate) fn network(text: &str, folder: Option<&Path>, origin: &str) -> Result<Network, Error> {
     let in_file = |error: FormatError| error.in_file(origin);
     let text = text.strip_prefix(parse::MARK).unwrap_or(text);
-    parse::is_no_json(text).map_err(in_file)?;
+    parse::refuse_json(text).map_err(in_file)?;
     let raw: RawNetwork = parse::toml(text, FORMAT).map_err(in_file)?;
     let Some((hourly, table, folder)) = raw.table(folder) else {
         return raw.check(text).map_err(in_file);

@@ -15,7 +15,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::Error;
-use crate::paths::{folder_of, leads_somewhere, origin};
+use crate::paths::{folder_of, origin, refuse_dangling_link};
 
 pub use error::OutputError;
 pub use files::{block_writes, create_folder, write_atomically};
@@ -56,7 +56,7 @@ pub fn check_output(path: &Path, kind: &OutputKind, force: bool) -> Result<(), E
     let origin = origin(path);
     let cannot = |cause| Error::CannotWrite { origin: origin.clone(), cause };
     let Ok(former) = fs::metadata(path) else {
-        leads_somewhere(path).map_err(cannot)?;
+        refuse_dangling_link(path).map_err(cannot)?;
         // A missing folder is found now rather than after the work is done.
         return fs::metadata(folder_of(path)).map(|_| ()).map_err(cannot);
     };

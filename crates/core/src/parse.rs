@@ -6,7 +6,8 @@ use serde::de::DeserializeOwned;
 
 use crate::{FileKind, FormatError};
 
-/// The member that every file of ours has. Other members may be anything until the format is known.
+/// The member that every file of this project has. Other members may be anything until the format
+/// is known.
 #[derive(Deserialize)]
 #[serde(expecting = "an object with a member `format`")]
 struct Header {
@@ -42,14 +43,14 @@ pub(crate) fn without_mark(text: &[u8]) -> &[u8] {
 }
 
 /// Refuses a network file where a scenario is expected. The text of a scenario can only be JSON.
-pub(crate) fn is_no_network(text: &[u8]) -> Result<(), FormatError> {
-    let says_so = |line: &[u8]| {
+pub(crate) fn refuse_network(text: &[u8]) -> Result<(), FormatError> {
+    let names_format = |line: &[u8]| {
         let value = line.trim_ascii_start().strip_prefix(b"format").map(<[u8]>::trim_ascii_start);
         let value = value.and_then(|value| value.strip_prefix(b"=")).map(<[u8]>::trim_ascii_start);
         value.is_some_and(|value| value[1.min(value.len())..].starts_with(b"vertifleet-network/"))
     };
     let is_json = text.trim_ascii_start().starts_with(b"{");
-    if is_json || !text.split(|&byte| byte == b'\n').any(says_so) {
+    if is_json || !text.split(|&byte| byte == b'\n').any(names_format) {
         return Ok(());
     }
     let (found, expected) = ("a network file (TOML)", FileKind::Scenario);
@@ -57,12 +58,12 @@ pub(crate) fn is_no_network(text: &[u8]) -> Result<(), FormatError> {
 }
 
 /// Refuses JSON where a network is expected. No TOML begins with a brace.
-pub(crate) fn is_no_json(text: &str) -> Result<(), FormatError> {
+pub(crate) fn refuse_json(text: &str) -> Result<(), FormatError> {
     if !text.trim_ascii_start().starts_with('{') {
         return Ok(());
     }
-    let says_so = text.contains("\"vertifleet-scenario/");
-    let found = if says_so { "a scenario file (JSON)" } else { "JSON" };
+    let names_format = text.contains("\"vertifleet-scenario/");
+    let found = if names_format { "a scenario file (JSON)" } else { "JSON" };
     let expected = FileKind::Network;
     Err(FormatError::WrongKind { found, expected })
 }
@@ -150,7 +151,7 @@ impl Place {
             line,
             column,
             member: if path == "." { String::new() } else { format!("{}: ", shortened(path, 100)) },
-            // The parsers name our type here, which means nothing to those who write files.
+            // The parsers name our type here, which means nothing to authors of files.
             problem: shortened(&problem.replace("expected f64", "expected a number"), 600),
         }
     }

@@ -18,7 +18,7 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
 
 /// Refuses a link to a file that does not exist: the new file would replace the link, and the
 /// link's target would stay empty.
-pub(crate) fn leads_somewhere(path: &Path) -> io::Result<()> {
+pub(crate) fn refuse_dangling_link(path: &Path) -> io::Result<()> {
     if path.is_symlink() && !path.exists() {
         let why = "it is a link to a file that is not there";
         return Err(io::Error::new(io::ErrorKind::NotFound, why));

@@ -1,7 +1,7 @@
-//! Networks drawn from a number, to learn on, and to measure a policy on networks that it never
-//! saw.
+//! Networks drawn from a number, to train on, and to measure a policy on networks that it was not
+//! trained on.
 //!
-//! They differ in everything that a network file says: 5 to 30 vertiports, 10 to 150 aircraft,
+//! They differ in every member of a network file: 5 to 30 vertiports, 10 to 150 aircraft,
 //! distances, stands, seats, speeds, prices, and demand from half to ten times what the fleet could
 //! carry.
 
@@ -135,7 +135,7 @@ fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
     text.write_fmt(what).expect("memory takes everything");
 }
 
-/// The random stream of a number; each purpose has streams of its own.
+/// The random stream of a number; each purpose has separate streams.
 fn generator(purpose: Purpose, number: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(number);
     random.set_stream(match purpose {

@@ -96,7 +96,7 @@ impl RawVertiport {
     }
 }
 
-/// The number of a vertiport's chargers, if it has chargers beside its other stands.
+/// The number of a vertiport's chargers, if it also has stands without chargers.
 pub(crate) fn chargers(id: &str, raw: Option<f64>) -> Result<Option<u16>, FormatError> {
     let member = || format!("vertiport {id:?}: chargers");
     raw.map(|chargers| limits::CHARGERS.whole_number(chargers, member)).transpose()

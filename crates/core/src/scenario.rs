@@ -37,14 +37,15 @@ pub struct Vertiport {
     /// Position north, miles.
     pub y_mi: f64,
     /// U_max: the number of aircraft that may stand here or be on their way here (Eq. 16). Where
-    /// `chargers` are counted apart, the number of aircraft that may wait here beside them.
+    /// `chargers` are counted apart, the number of aircraft that may wait here without a charger.
     pub stands: u16,
     /// Number of chargers, where they are counted apart from stands. A flight here needs a charger
     /// from take-off on; the aircraft frees it when it leaves, or when it holds and finds a stand.
     pub chargers: Option<u16>,
     /// Whether the vertiport belongs to V_B, the vertiports with high demand (Eq. 1).
     pub busy: bool,
-    /// Position on the globe, if it is known, for maps and warnings. Distances stand in the day.
+    /// Position on the globe, if it is known, for maps and warnings. The day contains the
+    /// distances.
     pub degrees: Option<Degrees>,
     /// Cost of each stand, whether or not it is used; dollars a day, 0 in the paper.
     pub stand_cost_usd: f64,
@@ -85,7 +86,7 @@ pub struct AircraftType {
     pub energy_kwh_per_mi: f64,
     /// P_max: charging power, kW.
     pub charge_kw: f64,
-    /// γ: share of the battery's capacity lost in an hour of flight, beside the energy that flying
+    /// γ: share of the battery's capacity lost in an hour of flight, besides the energy that flying
     /// takes. On a stand the charger makes up for it.
     pub self_discharge_per_h: f64,
 }
@@ -211,7 +212,7 @@ impl Scenario {
         self.vertiports.iter().map(Vertiport::site_cost_usd).sum()
     }
 
-    /// What the day costs whatever is decided: its fleet, and its stands and chargers; dollars.
+    /// The fixed cost of the day: its fleet, and its stands and chargers; dollars.
     pub fn fixed_cost_usd(&self) -> f64 {
         self.fleet_cost_usd() + self.site_cost_usd()
     }

@@ -32,7 +32,7 @@ impl Scenario {
         Self::from_json(&text, &origin(path))
     }
 
-    /// Reads and checks the text of a scenario file; `origin` stands for the file in messages.
+    /// Reads and checks the text of a scenario file; `origin` names the text in messages.
     ///
     /// # Errors
     /// The text is longer than 64 MiB or breaks a rule of the format; the message names the member.
@@ -45,7 +45,7 @@ impl Scenario {
 fn scenario(text: &[u8]) -> Result<Scenario, FormatError> {
     input::check_length(text, input::LONGEST_SCENARIO)?;
     let text = parse::without_mark(text);
-    parse::is_no_network(text)?;
+    parse::refuse_network(text)?;
     let raw: RawScenario = parse::json(text, FORMAT)?;
     raw.day()?.checked()
 }

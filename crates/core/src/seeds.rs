@@ -122,12 +122,13 @@ impl DaySeed {
     /// Number of training days of all runs together.
     pub const TRAINING_DAYS: u64 = RUNS * RUN_DAYS;
 
-    /// The seed that a day says it was drawn from, which is within bounds for a checked day.
+    /// The seed that a day was drawn from, according to its file. It is within bounds for a checked
+    /// day.
     pub(crate) fn of(day: &Scenario) -> Self {
         Self(day.seed)
     }
 
-    /// The seed as a number, as it stands in the scenario file.
+    /// The seed as a number, as in the scenario file.
     #[inline]
     pub const fn get(self) -> u64 {
         self.0

@@ -1,5 +1,5 @@
-//! Things that a scenario or a network may have but that are hardly meant. They are found on
-//! request, and no file is refused for them.
+//! Properties of a scenario or a network that are allowed but probably unintended. They are found
+//! on request, and no file is refused for them.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use crate::{
     AircraftType, Code, Degrees, Matrix, Network, Scenario, VertiportIx, great_circle_mi, limits,
 };
 
-/// A property of a scenario or a network that is allowed but hardly meant.
+/// A property of a scenario or a network that is allowed but probably unintended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
     /// V120 aircraft without a destination (warning). From the vertiport where the aircraft starts,
@@ -26,7 +26,7 @@ pub enum Warning {
 
     /// V135 vertiport out of reach (warning). No aircraft of the fleet can fly to or from a
     /// vertiport: it is too far from all others, or no corridor leads there. Often a longitude west
-    /// of Greenwich was written without its minus sign; the message says at which position the
+    /// of Greenwich was written without its minus sign; the message states at which position the
     /// vertiport would be within reach. This is a warning: days are played all the same, and no
     /// aircraft flies there.
     ///
@@ -50,8 +50,8 @@ pub enum Warning {
 
     /// V137 pairs out of reach (warning). At least one passenger in a hundred wants to fly between
     /// two vertiports that no aircraft of the fleet can fly between: no corridor joins them, or
-    /// they are too far apart. They count as passengers who want to fly and are spilled, whatever
-    /// the fleet. This is a warning: days are played all the same, and no share of all passengers
+    /// they are too far apart. They count as passengers who want to fly and are spilled, with any
+    /// fleet. This is a warning: days are played all the same, and no share of all passengers
     /// beyond the others can be reached.
     ///
     /// Fix: add the corridors, or take the pairs out of the demand.
@@ -66,8 +66,8 @@ pub enum Warning {
 
     /// V138 passengers outside the hours of operation (warning). At least one passenger in a
     /// hundred wants to fly in a period that ends before operations begin or begins after they end.
-    /// They count as passengers who want to fly and are spilled, whatever the fleet. This is a
-    /// warning: days are played all the same.
+    /// They count as passengers who want to fly and are spilled, with any fleet. This is a warning:
+    /// days are played all the same.
     ///
     /// Fix: change `operations`, or the periods of the demand.
     OutsideOperations {
@@ -220,8 +220,8 @@ impl Scenario {
         self.out_of_reach().into_iter().chain(stranded).chain(self.full()).collect()
     }
 
-    /// The warning that all stands are taken for good. Where chargers are counted apart, they are
-    /// free when the day begins.
+    /// The warning that all stands are taken permanently. Where chargers are counted apart, they
+    /// are free when the day begins.
     fn full(&self) -> Option<Warning> {
         let pools = self.vertiports.iter().all(|vertiport| vertiport.chargers.is_none());
         let stands: usize = self.vertiports.iter().map(|one| usize::from(one.stands)).sum();
@@ -276,7 +276,8 @@ impl Scenario {
                 .any(|other| reaches(great_circle_mi(place, (other.latitude, other.longitude))))
         };
         let written = self.vertiports[vertiport.at()].degrees;
-        let likely = written.and_then(|written| slips(written).into_iter().find(near_others));
+        let likely =
+            written.and_then(|written| likely_positions(written).into_iter().find(near_others));
         match likely {
             Some(likely) => Cause::Misplaced { nearest_mi, likely },
             None => Cause::TooFar { nearest_mi },
@@ -302,14 +303,14 @@ impl Scenario {
     }
 }
 
-/// Whether so many passengers of all are worth a warning.
+/// Whether this share of all passengers is worth a warning.
 fn is_much(passengers: f64, of_all: f64) -> bool {
     passengers > 0.0 && passengers >= LEAST_SHARE * of_all
 }
 
-/// The positions that these degrees may have been meant for, with a sign missing or added, or the
+/// The positions that may have been intended by these degrees, with a sign missing or added, or the
 /// two degrees exchanged.
-fn slips(Degrees { latitude, longitude }: Degrees) -> [Degrees; 5] {
+fn likely_positions(Degrees { latitude, longitude }: Degrees) -> [Degrees; 5] {
     [
         Degrees { latitude, longitude: -longitude },
         Degrees { latitude: -latitude, longitude },

@@ -5,14 +5,15 @@ use std::sync::Arc;
 
 use crate::{Error, Network, Purpose, RANDOM_PLACES, random_network, random_places};
 
-/// What days are drawn from.
+/// The source that days are drawn from.
 #[derive(Debug, Clone)]
 pub enum World {
     /// One network.
     Network(Arc<Network>),
     /// Networks that differ in everything ([`random_network`]).
     Random,
-    /// Networks as the paper's with so many vertiports, at places of their own ([`random_places`]).
+    /// Networks like the paper's with this number of vertiports, at random places
+    /// ([`random_places`]).
     RandomPlaces(usize),
 }
 

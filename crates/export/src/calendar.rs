@@ -85,7 +85,7 @@ fn checked_date(text: &str) -> Result<Date, Error> {
     date.ok_or_else(|| Error::BadDate { rule: RULE, found: shortened(text) })
 }
 
-/// The beginning of a text that stands in a message.
+/// The beginning of a text, for a message.
 fn shortened(text: &str) -> String {
     text.chars().take(64).collect()
 }

@@ -1,4 +1,4 @@
-//! The columns of the tables: what CSV and Parquet say about a decision, under the same names and
+//! The columns of the tables: the values of a decision in CSV and Parquet, under the same names and
 //! in the same order.
 
 use vertifleet_core::{Degrees, Time};

@@ -2,14 +2,14 @@
 
 use vertifleet_core::{Code, Coded, Exit};
 
-/// An error in what is to be exported.
+/// An error in the data to be exported.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
     /// V721 vertiport without latitude and longitude. GeoJSON and GTFS place vertiports on the
     /// globe, and a vertiport of the day has a position in miles only.
     ///
     /// Fix: give every vertiport of the network `latitude` and `longitude`, or export CSV, Parquet
-    /// or iCalendar, which do without.
+    /// or iCalendar, which do not need them.
     #[error(
         "day {day:?}: vertiport {vertiport:?} must have latitude and longitude for {format}, found a position in miles only"
     )]

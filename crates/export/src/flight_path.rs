@@ -57,8 +57,8 @@ fn pieces(way: &GreatCircle) -> u32 {
 }
 
 /// When the cruise begins and ends. It ends when landing begins, and lasts as long as the distance
-/// takes (Eq. 7); what is left before it is take-off and delay. A flight of a live day may be
-/// shorter than that; it cruises all the time then.
+/// takes (Eq. 7); the time before it is take-off and delay. A flight of a live day may be shorter
+/// than that; it cruises all the time then.
 fn cruise(flight: &Taken<'_>, operations: &Operations) -> (Time, Time) {
     let (departure, arrival) = (flight.row.time, flight.row.arrival);
     let cruise_s = cruise_s(flight);

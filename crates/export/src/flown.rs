@@ -26,7 +26,7 @@ impl<'a> Flown<'a> {
     ///
     /// # Errors
     /// [`Error::UnknownEntry`] (V724) if a row belongs to a day with more aircraft or vertiports,
-    /// and [`Error::WrongValue`] (V725) if a row goes back in time, goes on after 9999:59:59, or
+    /// and [`Error::WrongValue`] (V725) if a row goes back in time, continues after 9999:59:59, or
     /// has an amount that is not finite.
     pub fn new(day: &'a Scenario, rows: &'a [TraceRow]) -> Result<Self, Error> {
         for (at, row) in rows.iter().enumerate() {

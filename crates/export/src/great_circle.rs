@@ -6,8 +6,8 @@
 
 use vertifleet_core::{Degrees, EARTH_RADIUS_MI};
 
-/// Below this distance from 0 or 180 degrees, in radians, two places do not tell which great circle
-/// leads from one to the other.
+/// Below this distance from 0 or 180 degrees, in radians, two places do not determine which great
+/// circle leads from one to the other.
 const TOO_NARROW: f64 = 1e-9;
 
 /// The way from one place to another.
@@ -39,7 +39,7 @@ impl GreatCircle {
     }
 
     /// The place after a share of the way, from 0 to 1, to the nearest 1e-7 degrees, which is about
-    /// a centimetre; the ends are exact. Longitudes go on past 180 degrees rather than leap to
+    /// a centimetre; the ends are exact. Longitudes continue past 180 degrees rather than leap to
     /// -180, so that no line crosses the whole map.
     pub(crate) fn at(&self, share: f64) -> Degrees {
         if share <= 0.0 {

@@ -1,10 +1,10 @@
 //! GeoJSON: a line for each flight, with the time at every point, and a point for each vertiport.
 //!
 //! Positions of a line are `[longitude, latitude, altitude, seconds since 1970]`, which is what the
-//! trip layer of kepler.gl animates. The altitude is 0, because a day says nothing of it. Flights
+//! trip layer of kepler.gl animates. The altitude is 0, because a day has no altitudes. Flights
 //! come before vertiports, because kepler.gl looks at the first feature to see whether there are
-//! trips. Longitudes go on past 180 degrees where a flight crosses the date line. Each feature has
-//! a line of the file for itself.
+//! trips. Longitudes continue past 180 degrees where a flight crosses the date line. Each feature
+//! is one line of the file.
 
 use std::collections::HashMap;
 

@@ -1,5 +1,5 @@
-//! How the files of this crate begin, so that a command can tell its own files from those of others
-//! before it replaces one.
+//! How the files of this crate begin, so that a command recognises its files before it replaces
+//! one.
 
 use vertifleet_core::OutputKind;
 
@@ -7,8 +7,8 @@ use vertifleet_core::OutputKind;
 pub const CSV_FILE: OutputKind =
     OutputKind { name: "table of decisions", skipped: 0, opening: "aircraft,type,kind,from,to," };
 
-/// The beginning of every Parquet file. It does not tell ours from others, because Parquet has its
-/// metadata at the end.
+/// The beginning of every Parquet file. It does not distinguish our files from others, because
+/// Parquet has its metadata at the end.
 pub const PARQUET_FILE: OutputKind =
     OutputKind { name: "Parquet file", skipped: 0, opening: "PAR1" };
 

@@ -5,8 +5,8 @@ use std::collections::{HashMap, HashSet};
 
 /// An id of ASCII letters, digits, `-` and `_` for each given id. An id of these characters stays
 /// as it is. Others have `_` in place of each other character, and a number at the end if the
-/// result is another's id. Ids that differ only in capitals are told apart too, because file
-/// systems may not tell them apart.
+/// result is another's id. Ids that differ only in capitals get different names too, because file
+/// systems may treat them as equal.
 pub(crate) fn safe_ids<'a>(ids: impl Iterator<Item = &'a str> + Clone) -> Vec<String> {
     let mut used = HashSet::new();
     // Ids that are safe come first, so that no other id takes theirs.

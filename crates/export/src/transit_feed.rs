@@ -74,7 +74,7 @@ pub fn gtfs(flown: &Flown<'_>, calendar: &Calendar) -> Result<Vec<u8>, Error> {
     Ok(archive.finish())
 }
 
-/// What the files of the feed are made from.
+/// The data of which the files of the feed are made.
 struct Feed<'a> {
     flown: &'a Flown<'a>,
     /// The date as GTFS writes it.

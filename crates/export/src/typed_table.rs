@@ -1,7 +1,7 @@
 //! Tables of typed columns as Parquet files, for data frames and databases, and as CSV.
 //!
-//! In Parquet, all rows stand in one row group, compressed with zstd. The same table gives the same
-//! bytes on every machine.
+//! A Parquet file has all rows in one row group, compressed with zstd. The same table gives the
+//! same bytes on every machine.
 
 use std::sync::Arc;
 
@@ -48,8 +48,8 @@ pub enum Cells {
     Instant(Vec<i64>),
 }
 
-/// The table as a Parquet file whose rows are called `rows`. `metadata` are keys and values that
-/// stand in the file.
+/// The table as a Parquet file whose rows are called `rows`. `metadata` are keys and values of the
+/// file.
 ///
 /// # Panics
 /// Panics if columns have different numbers of cells, or names that are no names.
@@ -182,7 +182,7 @@ impl Cells {
     }
 }
 
-/// Writes a column in which cells may be missing. The level of a row says whether it has one.
+/// Writes a column in which cells may be missing. The level of a row shows whether it has one.
 fn write_optional<T: DataType>(
     group: &mut Group<'_>,
     cells: impl Iterator<Item = Option<T::T>> + Clone,

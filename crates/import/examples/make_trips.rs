@@ -2,7 +2,7 @@
 //!
 //! The records are around the vertiports of a network that places them by latitude and longitude,
 //! `new-york` if none is named. FILE ends with `.csv` or `.parquet`, whose row groups have ROWS
-//! rows. The vertiports go to a file `vertiports.csv` beside it.
+//! rows. The vertiports go to a file `vertiports.csv` next to it.
 
 #[path = "../tests/imports/made.rs"]
 mod made;

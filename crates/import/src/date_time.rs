@@ -31,13 +31,13 @@ pub(crate) struct Moment {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Stamp {
     pub(crate) moment: Moment,
-    /// By how much its clock is ahead of UTC, seconds, if the file says that.
+    /// By how much its clock is ahead of UTC, seconds, if the file states it.
     pub(crate) offset_s: Option<i32>,
 }
 
 /// A day of the week.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "the names say it")]
+#[expect(missing_docs, reason = "the names are clear")]
 pub enum Weekday {
     Monday,
     Tuesday,
@@ -152,7 +152,7 @@ impl Moment {
         i64::from(self.date.days) * i64::from(DAY_S) + i64::from(self.second)
     }
 
-    /// The moment so many seconds after 1970-01-01 00:00.
+    /// The moment `seconds` after 1970-01-01 00:00.
     pub(crate) fn from_seconds(seconds: i64) -> Option<Self> {
         let length = i64::from(DAY_S);
         let days = i32::try_from(seconds.div_euclid(length)).ok()?;
@@ -163,13 +163,13 @@ impl Moment {
 }
 
 impl Stamp {
-    /// The instant so many seconds after 1970 began in UTC.
+    /// The instant `seconds` after 1970 began in UTC.
     pub(crate) fn of_utc(seconds: i64) -> Option<Self> {
         Some(Self { moment: Moment::from_seconds(seconds)?, offset_s: Some(0) })
     }
 }
 
-/// What follows the fraction of a second.
+/// The rest of a time after the fraction of a second.
 #[inline]
 fn without_fraction(text: &[u8]) -> &[u8] {
     match text {

@@ -1,4 +1,4 @@
-//! What the network file says of where its demand is from: the lines of a comment.
+//! Comments of the network file on the source of its demand, line by line.
 
 use std::path::Path;
 
@@ -6,10 +6,10 @@ use crate::file_name;
 use crate::hourly_demand::HourlyDemand;
 use crate::trips::{TripAccount, Trips};
 
-/// The most files that are named one by one.
+/// The most files that are named individually.
 const MOST_FILES: usize = 12;
 
-/// Says what demand from a table is.
+/// Describes demand from a table.
 pub(crate) fn of_table(path: &Path, demand: &HourlyDemand) -> Vec<String> {
     let mut lines = vec![format!(
         "Mean passengers from {}; assumption: they decide independently.",
@@ -25,7 +25,7 @@ pub(crate) fn of_table(path: &Path, demand: &HourlyDemand) -> Vec<String> {
     lines
 }
 
-/// Says what demand from trip records is, and what became of the records.
+/// Describes demand from trip records, and what became of the records.
 pub(crate) fn of_trips(trips: &Trips<'_>, account: &TripAccount) -> Vec<String> {
     let mut files: Vec<&str> = account.files.iter().map(String::as_str).collect();
     let more = files.len().saturating_sub(MOST_FILES);

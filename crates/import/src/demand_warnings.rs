@@ -1,4 +1,4 @@
-//! What a demand may say but hardly means.
+//! Warnings of demand that is probably unintended.
 
 use std::cmp::Reverse;
 

@@ -1,4 +1,4 @@
-//! Expected errors of an import: what is wrong in the planner's files or settings, and what to do.
+//! Expected errors of an import: causes in the planner's files or settings, and remedies.
 
 use vertifleet_core::{Code, Coded, Error as CoreError, Exit, FormatError, Stopped};
 
@@ -23,7 +23,7 @@ pub enum Error {
     NotParsed {
         /// The file.
         origin: String,
-        /// What the file should be.
+        /// The expected kind of file.
         kind: &'static str,
         /// The parser's message.
         problem: String,
@@ -31,7 +31,7 @@ pub enum Error {
 
     /// V702 missing column. A table has no column, or a map no property, of a name that is needed,
     /// or none of several of which one is needed. Often its columns are separated by semicolons or
-    /// tabs, which are then read as one column; the hint says so.
+    /// tabs, which are then read as one column; the hint states it.
     ///
     /// Fix: rename the column; columns of trip records can be named with `--trip-columns`. Save a
     /// file with other separators with commas between its columns, and with decimal points.
@@ -45,7 +45,7 @@ pub enum Error {
         column: String,
         /// The columns that are there.
         found: String,
-        /// The column that was probably meant, or what else to do.
+        /// The column that the user probably meant, or another remedy.
         hint: Option<String>,
     },
 
@@ -77,7 +77,7 @@ pub enum Error {
         origin: String,
         /// The second line, feature or row.
         place: String,
-        /// What is given twice.
+        /// The thing that is given twice.
         what: String,
         /// The first line, feature or row.
         before: String,
@@ -97,7 +97,7 @@ pub enum Error {
         member: &'static str,
         /// The id that is not known.
         found: String,
-        /// The id that was probably meant.
+        /// The id that the user probably meant.
         meant: Option<String>,
     },
 
@@ -150,7 +150,7 @@ pub enum Error {
     Nothing {
         /// The file.
         origin: String,
-        /// What it should list.
+        /// The rows that it should list.
         what: &'static str,
     },
 
@@ -206,8 +206,8 @@ pub enum Error {
         found: String,
     },
 
-    /// V713 zones without a file of zones. Trip records name zones, and no file says where the
-    /// zones are.
+    /// V713 zones without a file of zones. Trip records name zones, and no file has the places of
+    /// the zones.
     ///
     /// Fix: give a file of zones, as CSV with `zone,latitude,longitude` or as GeoJSON.
     #[error("{origin}: its trips name zones, and no file of zones is given")]
@@ -224,7 +224,7 @@ pub enum Error {
     PricePeriods {
         /// The file.
         origin: String,
-        /// The period and what is wrong with it.
+        /// The period and the problem with it.
         problem: String,
     },
 
@@ -248,7 +248,7 @@ pub enum Error {
     TooMany {
         /// The file.
         origin: String,
-        /// What is counted.
+        /// The thing that is counted.
         what: &'static str,
         /// The most of them.
         most: usize,
@@ -333,7 +333,7 @@ pub(crate) fn shortened(text: &str, most: usize) -> String {
     }
 }
 
-/// A hint that names what was probably meant.
+/// A hint that names the probably intended one.
 pub(crate) fn did_you_mean<'a>(
     found: &str,
     names: impl IntoIterator<Item = &'a str>,

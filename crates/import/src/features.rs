@@ -19,7 +19,8 @@ use crate::source::read_whole;
 use crate::table::{text, without_mark};
 use crate::{Error, Warning, strict_json};
 
-/// Whether a file is GeoJSON, by its name or, where the name does not say, by its first character.
+/// Whether a file is GeoJSON, by its name or, where the name does not show it, by its first
+/// character.
 pub(crate) fn is_geojson(path: &Path) -> Result<bool, Error> {
     let extension = path.extension().map(OsStr::to_ascii_lowercase);
     match extension.as_ref().and_then(|extension| extension.to_str()) {
@@ -178,7 +179,7 @@ impl Shape<'_> {
         }
     }
 
-    /// An error that says how many parts a geometry of the right kind has.
+    /// The error that a geometry of the right kind has this number of parts.
     fn wrong_count(&self, expected: &'static str, count: usize, part: &str) -> Error {
         let kind = self.geometry.map_or("none", GeometryValue::type_name);
         let parts = if count == 1 { part.to_owned() } else { format!("{part}s") };
@@ -206,7 +207,7 @@ impl Shape<'_> {
         rings.collect::<Result<_, Error>>().map(Some)
     }
 
-    /// An error that says that the geometry is not the one that is needed.
+    /// The error that the geometry is not the one that is needed.
     pub(crate) fn wrong(&self, expected: &'static str) -> Error {
         Error::WrongGeometry {
             origin: self.row.origin.to_owned(),

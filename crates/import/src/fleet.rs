@@ -2,8 +2,7 @@
 
 use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
-/// Gives the fleet of a network's text `aircraft` aircraft in all, and says so in a comment above
-/// it.
+/// Gives the fleet of a network's text `aircraft` aircraft in all, and notes it in a comment above.
 pub(crate) fn resize(file: &mut DocumentMut, aircraft: u32, base: &str) {
     let mut entries = entries(file);
     let counts: Vec<u32> = entries.iter().map(|entry| count(*entry)).collect();
@@ -21,7 +20,7 @@ pub(crate) fn resize(file: &mut DocumentMut, aircraft: u32, base: &str) {
     add_comment(file, &comment);
 }
 
-/// The entries of the fleet, whether each is a section or all stand in a list.
+/// The entries of the fleet, which are sections or entries of one list.
 fn entries(file: &mut DocumentMut) -> Vec<&mut dyn TableLike> {
     match file.get_mut("fleet") {
         Some(Item::ArrayOfTables(tables)) => {

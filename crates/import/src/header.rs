@@ -1,4 +1,4 @@
-//! Which column of a table, or which property of a map's features, is the one that is asked for.
+//! Finds the requested column of a table, or the requested property of a map's features.
 
 use crate::cell::printable;
 use crate::error::shortened;
@@ -13,7 +13,7 @@ pub(crate) struct Header<'a> {
     pub(crate) of: Named,
 }
 
-/// What has names.
+/// The kind of thing that has names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Named {
     Columns,
@@ -114,7 +114,7 @@ impl<'a> Header<'a> {
 
     /// The warning that a column is absent and one of a similar name is not read.
     fn overlooked(&self, column: &str, used: &[usize]) -> Option<Warning> {
-        // Many short words are but two letters apart, such as name and date.
+        // Many short words differ in only two letters, such as name and date.
         let nearest = || nearest(column, self.free(used)).filter(|_| column.len() > 4);
         let similar = self.similar(column, used).or_else(nearest)?;
         Some(Warning::Columns {
@@ -155,14 +155,13 @@ fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a s
 
 /// A column that is needed and missing.
 pub(crate) struct Missing<'a> {
-    /// Which column that is, in words.
+    /// A description of the column.
     pub(crate) column: &'a str,
     /// The names to which similar ones are looked for.
     pub(crate) like: &'a [&'a str],
-    /// The columns that hold something else that is needed, so that they were not meant to be this
-    /// one.
+    /// The columns that are used for other values, so that they cannot be this one.
     pub(crate) used: &'a [usize],
-    /// What else may be done about it.
+    /// Another remedy.
     pub(crate) remedy: Option<&'a str>,
 }
 

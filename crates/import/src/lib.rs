@@ -1,10 +1,10 @@
 //! Networks from a planner's own data: vertiports, demand, trip records, corridors, fares and
 //! energy prices.
 //!
-//! [`import`] reads the files of a [`Request`] and makes the text of a network file. What planners
-//! have no data on, such as aircraft types and the fleet, comes from another network, the *base*,
-//! with its comments. The text is read again before it is returned, so that every import is a valid
-//! network.
+//! [`import`] reads the files of a [`Request`] and makes the text of a network file. Members that
+//! planners have no data on, such as aircraft types and the fleet, come from another network, the
+//! *base*, with its comments. The text is read again before it is returned, so that every import is
+//! a valid network.
 //!
 //! Small files are read whole, trip records in blocks (`trips.rs`); both kinds may be CSV or
 //! Parquet, and every value of either kind is a cell (`cell.rs`). Maps are GeoJSON, with longitude
@@ -53,7 +53,7 @@ pub use trip_times::{NotAFormat, TimeFormat};
 pub use trips::{DroppedRow, TripAccount, TripColumns, TripValue, Trips};
 pub use warning::Warning;
 
-/// What to import.
+/// The files and settings of an import.
 #[derive(Debug)]
 pub struct Request<'a> {
     /// The network that aircraft types, fleet, operations, tariffs and disturbances are taken from.
@@ -100,21 +100,21 @@ pub enum Demand<'a> {
 pub struct Imported {
     /// The network, checked.
     pub network: Network,
-    /// The text of its file, with comments that say where everything is from.
+    /// The text of its file, with comments on the source of everything.
     pub toml: String,
-    /// What became of the trip records, if the demand comes from them.
+    /// The account of the trip records, if the demand comes from them.
     pub account: Option<TripAccount>,
     /// The members of the base that the network has unchanged, by their paths.
     pub inherited: Vec<String>,
-    /// What the planner's files hardly mean, beside the warnings of the network.
+    /// Warnings of the planner's files, besides those of the network.
     pub warnings: Vec<Warning>,
 }
 
-/// Makes a network of a planner's files. `progress` is told the share of the trip records that has
-/// been read.
+/// Makes a network of a planner's files. `progress` is called with the share of the trip records
+/// that has been read.
 ///
 /// # Errors
-/// A file cannot be read or breaks a rule, the network that comes out breaks one, or `stop` is
+/// A file cannot be read or breaks a rule, the resulting network breaks one, or `stop` is
 /// requested.
 pub fn import(
     request: &Request<'_>,
@@ -148,7 +148,7 @@ pub fn import(
             (demand, source, None)
         }
         Demand::Trips(trips) => {
-            // Trip records may take minutes to read. Whatever else is wrong is said before.
+            // Trip records may take minutes to read, so all other errors are found first.
             text.network(&trips::no_demand(operations), &[])?;
             let (demand, account) = trips::demand(
                 trips,

@@ -1,9 +1,9 @@
-//! The text of the network file: the base's text, with what the planner's files say in place of
-//! what the base says.
+//! The text of the network file: the base's text, in which the contents of the planner's files
+//! replace those of the base.
 //!
-//! The text is edited, not rewritten, so that comments stay beside what they explain.
-//! Whatever belongs to the vertiports or the demand of the base is removed or adapted, and the file
-//! says so.
+//! The text is edited, not rewritten, so that comments stay next to what they explain. Members that
+//! belong to the vertiports or the demand of the base are removed or adapted, and a comment states
+//! it.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -21,7 +21,7 @@ use crate::tariffs::PairTariff;
 use crate::vertiports::{ASSUMED_STANDS, Vertiport, Vertiports};
 use crate::{Error, file_name, fleet};
 
-/// What was read from a file, and the file.
+/// The contents of a file, and its path.
 pub(crate) struct FromFile<'a, T> {
     pub(crate) what: T,
     pub(crate) path: &'a Path,
@@ -39,8 +39,8 @@ pub(crate) struct NetworkText<'a> {
     pub(crate) energy_prices: Option<FromFile<'a, EnergyPrices>>,
 }
 
-/// The members of a base that say something else of its demand or its vertiports, with the reason
-/// to leave them out.
+/// Other members of a base that refer to its demand or its vertiports, with the reason to leave
+/// them out.
 const LEFT_OUT: [(&[&str], &str); 11] = [
     (&["corridors"], "names its vertiports"),
     (&["closures"], "names its vertiports"),
@@ -58,14 +58,14 @@ const LEFT_OUT: [(&[&str], &str); 11] = [
 /// The members that an import writes itself, besides the demand.
 const OWN: [&str; 3] = ["format", "name", "vertiports"];
 
-/// The sections of a base whose members are inherited one by one.
+/// The sections of a base whose members are inherited individually.
 const SECTIONS: [&str; 3] = ["tariffs", "market", "disturbances"];
 
 /// The demand models, of which a base has one.
 const DEMAND_MODELS: [&str; 4] = ["demand", "daily_demand", "hourly_demand", "uniform_demand"];
 
 impl NetworkText<'_> {
-    /// Makes the text, and reads and checks it. `source` says where the demand is from.
+    /// Makes the text, and reads and checks it. `source` describes where the demand is from.
     pub(crate) fn network(
         &self,
         demand: &HourlyDemand,
@@ -213,7 +213,7 @@ impl NetworkText<'_> {
 
     fn put_tariffs(&self, file: &mut DocumentMut, periods: &[Time]) -> Result<(), Error> {
         let Some(item) = file.get_mut("tariffs") else { return Ok(()) };
-        // Comments need lines of their own, which an inline table does not have.
+        // Comments need separate lines, which an inline table does not have.
         if let Ok(table) = std::mem::take(item).into_table() {
             *item = Item::Table(table);
         }
@@ -282,7 +282,7 @@ impl NetworkText<'_> {
         put(tariffs, member, adapted, &comment);
     }
 
-    /// Adds the section of the demand, which is by far the longest and therefore the last.
+    /// Adds the section of the demand, which is much the longest and therefore the last.
     fn put_demand(&self, text: &mut String, demand: &HourlyDemand, source: &[String]) {
         text.push('\n');
         for line in source {

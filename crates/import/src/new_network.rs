@@ -8,7 +8,7 @@ use crate::Error;
 /// The name of the text in messages.
 const ORIGIN: &str = "the new network";
 
-/// What a new network has. Everything else is an assumption that stands in its file.
+/// The settings of a new network. Everything else is an assumption, which its file names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewNetwork {
     /// Its name.
@@ -19,7 +19,7 @@ pub struct NewNetwork {
     pub aircraft: u32,
     /// Passengers of all pairs together who want to fly on a day.
     pub passengers_a_day: f64,
-    /// What a passenger pays a mile, dollars.
+    /// The fare of a passenger a mile, dollars.
     pub fare_usd_per_mi: f64,
 }
 

@@ -77,7 +77,7 @@ impl ParquetFile {
         self.reader.num_row_groups()
     }
 
-    /// Number of rows of a row group, 0 if the file says nonsense.
+    /// Number of rows of a row group, 0 if the number in the file is negative.
     pub(crate) fn group_rows(&self, group: usize) -> u64 {
         u64::try_from(self.reader.metadata().row_group(group).num_rows()).unwrap_or(0)
     }
@@ -190,7 +190,7 @@ enum Values {
 struct BatchedColumn {
     values: Values,
     meaning: Meaning,
-    /// The level that says that a row has a value; 0 if every row has one.
+    /// The level of rows that have a value; 0 if every row has one.
     present: i16,
     levels: Vec<i16>,
     /// Position of the next value in the batch.

@@ -1,5 +1,5 @@
-//! What the values of a Parquet column mean: which types can be read, and the cell that a value
-//! becomes.
+//! The meaning of the values of a Parquet column: which types can be read, and the cell that a
+//! value becomes.
 
 use parquet::basic::{ConvertedType, LogicalType, TimeUnit, Type};
 use parquet::schema::types::ColumnDescriptor;
@@ -9,17 +9,17 @@ use crate::cell::Cell;
 use crate::date_time::{DAY_S, Moment, Stamp};
 use crate::error::shortened;
 
-/// What the values of a column mean.
+/// The meaning of the values of a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Meaning {
     /// Numbers, texts or truth values, as they are.
     Plain,
-    /// A date and time: a count since 1970, so many units to the second, of clocks somewhere or
+    /// A date and time: a count of units since 1970, `per_second` to the second, of local clocks or
     /// (`utc`) of UTC.
     Time { per_second: i64, utc: bool },
     /// A time of day: a count since midnight.
     TimeOfDay { per_second: i64 },
-    /// A whole number that stands for so many digits after the decimal point.
+    /// A whole number, the last `scale` digits of which are after the decimal point.
     Decimal { scale: i32 },
 }
 
@@ -115,7 +115,7 @@ impl Meaning {
         }
     }
 
-    /// The date and time so many seconds after 1970 began.
+    /// The date and time `seconds` after 1970 began.
     pub(crate) fn of_seconds(self, seconds: i64) -> Cell<'static> {
         let offset_s = matches!(self, Self::Time { utc: true, .. }).then_some(0);
         let moment = Moment::from_seconds(seconds);
@@ -124,8 +124,8 @@ impl Meaning {
 
     pub(crate) fn of_bytes(self, bytes: &[u8]) -> Cell<'_> {
         let Self::Decimal { scale } = self else { return Cell::text(bytes) };
-        // Big-endian, in two's complement. More than 16 bytes are more digits than any number of
-        // ours has.
+        // Big-endian, in two's complement. More than 16 bytes are more digits than any number in
+        // these files has.
         let negative = bytes.first().is_some_and(|byte| byte & 0x80 != 0);
         let mut all = [if negative { 0xff } else { 0 }; 16];
         let Some(begin) = all.len().checked_sub(bytes.len()) else { return Cell::Missing };
@@ -134,7 +134,7 @@ impl Meaning {
     }
 }
 
-/// A number of so many digits after the decimal point, as it is read from its text.
+/// A number with `scale` digits after the decimal point, as it is read from its text.
 fn decimal(unscaled: i128, scale: i32) -> Cell<'static> {
     let number = format!("{unscaled}e{}", -i64::from(scale)).parse();
     number.map_or(Cell::Missing, Cell::Number)

@@ -43,7 +43,7 @@ pub(crate) const fn optional(names: &'static [&'static str]) -> Column {
     Column { names, need: Need::Optional }
 }
 
-/// Where rows stand in their file.
+/// The positions of rows in their file.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Positions<'a> {
     /// Positions are first bytes of lines of this text.
@@ -216,7 +216,7 @@ impl Row<'_> {
         })
     }
 
-    /// An error that says that `what` stands at another position of the file already.
+    /// The error that `what` is given before, at another position of the file.
     pub(crate) fn given_twice(&self, what: String, before: usize) -> Error {
         Error::GivenTwice {
             origin: self.origin.to_owned(),
@@ -226,7 +226,7 @@ impl Row<'_> {
         }
     }
 
-    /// An error that says that the value of a column breaks a rule.
+    /// The error that the value of a column breaks a rule.
     pub(crate) fn wrong(&self, column: usize, rule: String) -> Error {
         Error::WrongValue {
             origin: self.origin.to_owned(),

@@ -82,8 +82,8 @@ pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, Error> {
     })
 }
 
-/// Calls `read` with the unpacked bytes of a long file. `meter` wraps the file, and sees how far it
-/// has been read.
+/// Calls `read` with the unpacked bytes of a long file. `meter` wraps the file and reports how far
+/// it has been read.
 pub(crate) fn read_through<F, T>(
     path: &Path,
     meter: impl FnOnce(File) -> F,

@@ -1,5 +1,5 @@
 //! Small tables, CSV or Parquet, read whole and row by row. Trip records, which may be much longer,
-//! have readers of their own.
+//! have separate readers.
 
 use std::path::Path;
 

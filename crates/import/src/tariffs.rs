@@ -22,7 +22,7 @@ const PAIR_COLUMNS: [Column; 4] = [
     one_of(&["passenger_cost_usd"]),
 ];
 
-/// What a passenger pays and costs between two vertiports, where the table says so.
+/// The fare and the cost of a passenger between two vertiports, where the table states them.
 #[derive(Debug)]
 pub(crate) struct PairTariff {
     /// The positions of the two vertiports.

@@ -24,7 +24,7 @@ pub struct TimeFormat(Format);
 
 #[derive(Debug, Clone, PartialEq)]
 enum Format {
-    /// So many units to the second, since 1970 in UTC.
+    /// A count of this number of units to the second, since 1970 in UTC.
     Epoch { per_second: i64 },
     /// A pattern of `strptime`.
     Pattern(String),

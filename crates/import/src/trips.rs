@@ -8,7 +8,7 @@
 //!
 //! Files are read in blocks (CSV, `trips/blocks.rs`) or row groups (Parquet, `trips/groups.rs`),
 //! several at once. Sums are whole numbers (`trips/tally.rs`), so the result is the same to the
-//! last bit in whatever order records are added.
+//! last bit for any order of the records.
 
 mod account;
 mod blocks;
@@ -50,7 +50,7 @@ use tally::{Hours, Rules, Tallies};
 /// [`last_date`](Self::last_date) on which the files have at least one valid pick-up: one whose
 /// time, places and passengers can be read, wherever its places are. Files often hold a few records
 /// with wrong dates, and each such date would count as a day; bounds on the dates leave them out.
-/// Where operations go on past midnight, a pick-up after midnight belongs to the day before.
+/// Where operations continue past midnight, a pick-up after midnight belongs to the day before.
 #[derive(Debug, Clone)]
 pub struct Trips<'a> {
     /// The files, CSV or Parquet. A row of a CSV file is one line, also where a value is in quotes.

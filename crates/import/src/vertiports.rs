@@ -64,7 +64,7 @@ impl Vertiports {
     /// Reads a CSV table or a GeoJSON file of points.
     pub(crate) fn read(path: &Path, warnings: &mut Vec<Warning>) -> Result<Self, Error> {
         let mut vertiports = Self::default();
-        // Where each vertiport stands in the file.
+        // The position of each vertiport in the file.
         let mut places = Vec::new();
         if features::is_geojson(path)? {
             features::shapes(path, &COLUMNS[..=NAME], warnings, |shape| {
@@ -143,7 +143,7 @@ const SAME_PLACE_MI: f64 = 0.01;
 const POLAR_LATITUDE: f64 = 72.0;
 
 impl Vertiports {
-    /// What their places hardly mean.
+    /// Warnings of places that are probably wrong.
     pub(crate) fn warnings(&self, path: &Path) -> Vec<Warning> {
         let warning = |problem| Warning::Places { origin: path.display().to_string(), problem };
         let polar = self.list.iter().all(|one| one.place.latitude.abs() > POLAR_LATITUDE);

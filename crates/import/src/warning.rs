@@ -1,10 +1,10 @@
-//! What a planner's files may say but hardly mean. Nothing is refused for it.
+//! Warnings of a planner's files: contents that are allowed but probably unintended.
 
 use std::fmt;
 
 use vertifleet_core::Code;
 
-/// Something in a planner's files that is allowed but hardly meant.
+/// A property of a planner's files that is allowed but probably unintended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
     /// V718 strange demand in data of your own (warning). A demand that is imported has no
@@ -18,7 +18,7 @@ pub enum Warning {
     Demand {
         /// The file.
         origin: String,
-        /// What is strange, and what follows from it.
+        /// The problem, and its consequences.
         problem: String,
     },
 
@@ -30,7 +30,7 @@ pub enum Warning {
     Places {
         /// The file.
         origin: String,
-        /// Which vertiports, and what is strange.
+        /// The vertiports and the problem.
         problem: String,
     },
 
@@ -54,22 +54,22 @@ pub enum Warning {
     Columns {
         /// The file.
         origin: String,
-        /// Which one, and what it may mean.
+        /// The column, and its possible meaning.
         problem: String,
     },
 
-    /// V741 strange trip records (warning). Trip records hardly mean what they say. Their times
-    /// have a time zone and are not converted, or cannot be read; dates have hardly any records and
-    /// count as days all the same; days between the dates that were given have none; two files are
-    /// the same; latitude and longitude are exchanged, or positions are in metres; a column that
-    /// seems to hold the passengers is not read. This is a warning: the network is made all the
-    /// same.
+    /// V741 strange trip records (warning). Trip records are probably not what they seem. Their
+    /// times have a time zone and are not converted, or cannot be read; dates have hardly any
+    /// records and count as days all the same; days between the dates that were given have none;
+    /// two files are the same; latitude and longitude are exchanged, or positions are in metres; a
+    /// column that seems to hold the passengers is not read. This is a warning: the network is made
+    /// all the same.
     ///
     /// Fix: the message names the flag or the file to change.
     Trips {
         /// The files.
         origin: String,
-        /// What is strange, and what to do.
+        /// The problem, and the remedy.
         problem: String,
     },
 }

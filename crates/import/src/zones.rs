@@ -1,5 +1,5 @@
-//! Zones, by which many trip records say where a trip began and ended: where the middle of each
-//! zone is.
+//! Zones, by which many trip records name the places where a trip began and ended: where the middle
+//! of each zone is.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -12,8 +12,8 @@ use crate::table;
 use crate::vertiports::{LATITUDES, LONGITUDES};
 use crate::{Error, Warning};
 
-/// Files of New York's taxi zones have a `zone` that is a name beside the `LocationID` that trips
-/// give, so names of numbers come first.
+/// Files of New York's taxi zones have a `zone`, which is a name, next to the `LocationID` that
+/// trips give, so names of numbers come first.
 const ZONE: &[&str] = &["LocationID", "location_id", "zone_id", "zone"];
 const COLUMNS: [Column; 3] = [required(ZONE), required(LATITUDES), required(LONGITUDES)];
 const PROPERTIES: [Column; 1] = [required(ZONE)];

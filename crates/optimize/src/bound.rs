@@ -2,10 +2,10 @@
 //!
 //! Stands and flights get prices (`bound/prices.rs`). Any prices prove a bound in exact arithmetic
 //! (`bound/certificate.rs`), over a day that is laid out once (`bound/time_expanded_day.rs`), with
-//! passengers who buy whole flights (`bound/market.rs`). What the fleet would do at the prices
-//! (`bound/best_itineraries.rs`) shows how to improve them (`bound/descent.rs`), from coarse slices
-//! of time to fine ones (`bound/ladder.rs`). docs/src/concepts/bound.md has the proof. The prices
-//! of a bound can be kept in a file (`bound/kept.rs`).
+//! passengers who buy whole flights (`bound/market.rs`). The best itineraries of the fleet at the
+//! prices (`bound/best_itineraries.rs`) show how to improve them (`bound/descent.rs`), from coarse
+//! slices of time to fine ones (`bound/ladder.rs`). docs/src/concepts/bound.md has the proof. The
+//! prices of a bound can be kept in a file (`bound/kept.rs`).
 
 mod best_itineraries;
 mod certificate;
@@ -57,7 +57,7 @@ pub struct Bound {
     market: Market,
     prices: Prices,
     micro_usd: i128,
-    /// What the fleet and its sites cost whatever is decided, micro-dollars.
+    /// The fixed cost of the fleet and its sites, micro-dollars.
     fixed_cost: i64,
     is_final: bool,
 }
@@ -211,7 +211,7 @@ impl Bound {
 
 /// The amount by which a profit is below a bound, as a share of the bound. Where nothing can be
 /// earned, or a loss can only be kept small, it is the share of the loss that might be avoided,
-/// from 0 to 1. A cent is nothing.
+/// from 0 to 1. Less than a cent counts as 0.
 pub fn gap(bound_usd: f64, profit_usd: f64) -> f64 {
     if bound_usd > CENT_USD {
         (bound_usd - profit_usd) / bound_usd

@@ -45,8 +45,7 @@ pub enum Error {
 
     /// V504 days of another network. `bound --without-foresight NETWORK` was given a day whose
     /// take-off delays that network never draws, or a network without delays for a day that has
-    /// some. What is known of delays beforehand is how likely they are, and that stands in the
-    /// network only.
+    /// some. Only the probabilities of delays are known beforehand, and only the network has them.
     ///
     /// Fix: name the network that the day was drawn from.
     #[error("{day}: its take-off delays cannot have been drawn from the network {network:?}")]

@@ -38,7 +38,7 @@ pub use start::StartingPolicy;
 /// finish in time.
 const JUDGED_FROM: f64 = 0.25;
 /// Dives take this share of the budget, or less. Within this share, a thorough day of the rolling
-/// horizon is played beside them.
+/// horizon is played in parallel.
 const DIVE_SHARE: f64 = 0.5;
 /// With less time than this, no dive is begun.
 const LEAST_TO_DIVE: Duration = Duration::from_secs(5);
@@ -62,7 +62,8 @@ pub enum Budget {
 }
 
 impl Budget {
-    /// Whether policies play their days before dives and a proof begin, and not beside them.
+    /// Whether policies play their days before dives and a proof begin, and not in parallel with
+    /// them.
     pub(crate) fn leaves_policies_alone(self) -> bool {
         matches!(self, Self::Time(limit) if (LEAST_TO_DIVE..LEAST_TO_SHARE).contains(&limit))
     }
@@ -73,7 +74,7 @@ impl Budget {
 pub struct SearchSettings {
     /// The budget of the search.
     pub budget: Budget,
-    /// Number of searches side by side, which share what they find now and then. At least 1.
+    /// Number of searches in parallel, which share their results from time to time. At least 1.
     pub searches: usize,
     /// The seed of the random choices of the searches.
     pub seed: u64,
@@ -119,13 +120,12 @@ fn looks_a_step(scenario: &Scenario) -> u64 {
 }
 
 /// Plans a day that is known in full: actual demand, delays, closures and outages. The plan is
-/// never worse than the day of any policy that needs no learning, nor of any of `more`, as far as
-/// they can be played within the budget; the rolling horizon comes last. `watch` is called many
+/// never worse than the day of any policy that needs no learning, nor of any of `more`, if these
+/// days can be played within the budget; the rolling horizon comes last. `watch` is called many
 /// times a second with the progress, and returns whether to continue; if not, the plan is the best
 /// found by then.
 ///
-/// A limit of time is kept to within a second or a tenth of the limit, whatever the size of the
-/// day.
+/// A limit of time is kept to within a second or a tenth of the limit, on days of any size.
 pub fn plan(
     scenario: &Arc<Scenario>,
     settings: &SearchSettings,

@@ -8,7 +8,7 @@ use vertifleet_core::{Scenario, Stop};
 
 use crate::bound::{Bound, CENT_USD, Relaxed, Watch, finest_step, search};
 
-/// The proof of a bound on a thread of its own, with the finest slices for which the day is not too
+/// The proof of a bound on a separate thread, with the finest slices for which the day is not too
 /// large. The best bound so far is available at any time, as soon as there is a first one.
 pub struct Proof {
     shared: Arc<Shared>,
@@ -68,7 +68,7 @@ impl Proof {
 
     /// Records that some schedule earns this many dollars. A bound that has come down to it is as
     /// low as any can be, so the search ends.
-    pub fn knows(&self, profit_usd: f64) {
+    pub fn record_profit(&self, profit_usd: f64) {
         self.shared.known_usd.store(profit_usd.to_bits(), Ordering::Relaxed);
     }
 
@@ -123,7 +123,7 @@ impl Shared {
     }
 }
 
-/// Tells the owner that the thread has ended, in whatever way.
+/// Signals the owner that the thread has ended, for any reason.
 struct Ending(Arc<Shared>);
 
 impl Drop for Ending {

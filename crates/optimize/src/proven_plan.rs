@@ -50,7 +50,7 @@ pub fn plan_with_proof(
             watch(progress, None);
             return !stop.is_requested();
         };
-        proof.knows(profit_usd);
+        proof.record_profit(profit_usd);
         let bound = proof.best();
         watch(progress, bound.as_deref());
         let is_good_enough = bound.is_some_and(|bound| {

@@ -21,7 +21,7 @@ const ROLLOUTS: RolloutSettings =
 
 /// The settings of another day to begin a plan with. It takes about four times as long. On 12 calm
 /// validation days of `los-angeles` half as many roll-outs earned 0.8 % more than the above, and on
-/// 20 of `san-francisco` 0.2 %; but for a plan it counts that the day is another one.
+/// 20 of `san-francisco` 0.2 %; but for a plan the day is another one.
 const MORE_ROLLOUTS: RolloutSettings =
     RolloutSettings { horizon_s: 10_800, rollouts: 64, ..ROLLOUTS };
 

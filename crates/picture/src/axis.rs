@@ -52,7 +52,7 @@ impl Scale {
         (0..=count).map(|tick| (first + f64::from(tick)) * self.step).collect()
     }
 
-    /// The number of decimals that tells the ticks apart when they are written in a unit of this
+    /// The number of decimals that distinguishes the ticks when they are written in a unit of this
     /// size.
     pub fn decimals(&self, unit: f64) -> usize {
         let step = self.step / unit;

@@ -25,8 +25,8 @@ fn numbers(table: &Matrix<u32>) -> Matrix<f64> {
     Matrix::from_fn(table.size(), |from, to| f64::from(table[(from, to)]))
 }
 
-/// Who wants to fly between which vertiports, and when, side by side. `demand` has the passengers
-/// of each demand period, or their means.
+/// The demand by pair of vertiports and period, side by side. `demand` has the passengers of each
+/// demand period, or their means.
 pub(crate) fn map_and_demand(canvas: &mut Canvas, day: &Scenario, demand: &[Matrix<f64>]) {
     let map = Area { left: 16.0, top: 92.0, width: 470.0, height: 330.0 };
     let bars = Area { left: 560.0, top: 92.0, width: WIDTH - 560.0 - 24.0, height: 320.0 };

@@ -1,5 +1,5 @@
-//! What each aircraft did on a played day: flights by load, charging, outages, and the rest of the
-//! time on a stand.
+//! The activities of each aircraft on a played day: flights by load, charging, outages, and the
+//! rest of the time on a stand.
 
 use vertifleet_core::{Scenario, Time};
 use vertifleet_sim::TraceRow;
@@ -10,7 +10,7 @@ use crate::map::Area;
 use crate::palette::Paint;
 use crate::panel::{Blocks, Clock, key};
 
-/// The most aircraft that have a row of their own.
+/// The most aircraft that have separate rows.
 const MOST_ROWS: usize = 60;
 /// Steps in which the load of a flight is shown.
 const LOADS: usize = 4;
@@ -22,7 +22,7 @@ pub(crate) fn height(day: &Scenario) -> f64 {
     row * shown as f64
 }
 
-/// What is left out, if there are more aircraft than rows.
+/// A note on the aircraft that are left out, if there are more than rows.
 pub(crate) fn left_out(day: &Scenario) -> String {
     if day.aircraft.len() > MOST_ROWS {
         format!(", the first {MOST_ROWS} of {}", day.aircraft.len())
@@ -31,7 +31,7 @@ pub(crate) fn left_out(day: &Scenario) -> String {
     }
 }
 
-/// What aircraft did, as blocks that look alike.
+/// The activities of aircraft, as blocks of one look each.
 #[derive(Default)]
 struct Spans {
     empty: Blocks,

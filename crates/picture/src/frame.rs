@@ -1,4 +1,4 @@
-//! The fleet at one moment as a small picture, for videos and for a look at an environment.
+//! The fleet at one moment as a small picture, for videos and for environments.
 
 use vertifleet_core::{Scenario, VertiportIx};
 

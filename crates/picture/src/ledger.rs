@@ -15,9 +15,9 @@ const LINE: f64 = 30.0;
 /// A line of the ledger: its name, and its amount in dollars; costs are negative.
 pub(crate) type Line = (&'static str, f64);
 
-/// The lines of the ledger: revenue, the costs that there are, and profit. What aircraft cost is
-/// there also if it is nothing, so that the profit of a network without this cost is not taken for
-/// one after it.
+/// The lines of the ledger: revenue, the costs that there are, and profit. The cost of aircraft is
+/// shown even if it is 0, so that the profit of a network without this cost is not mistaken for one
+/// after it.
 pub fn ledger_lines(day: &Scenario, rows: &[TraceRow]) -> Vec<Line> {
     // From 0, because the sum of no numbers is -0.
     let sum =

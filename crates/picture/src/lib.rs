@@ -1,7 +1,7 @@
 //! Pictures of days, schedules and fleets, and the kit that every figure of the project is drawn
 //! with.
 //!
-//! This crate builds on `vertifleet-sim`. [`Moment`] says where the fleet is at one time of a
+//! This crate builds on `vertifleet-sim`. [`Moment`] represents where the fleet is at one time of a
 //! trace; [`frame`] paints it as a frame of a video, and [`text`] for a terminal. [`day`] is the
 //! picture of a day, [`network`] that of a network, and [`PlayedPicture`] has those of a day that
 //! was played, most of which [`schedule`] puts on one sheet. The kit writes SVG ([`canvas`],

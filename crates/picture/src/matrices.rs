@@ -1,4 +1,4 @@
-//! Who wants to fly where and when: the matrix of demand as small heat maps, one for each demand
+//! The demand by pair and time: the matrix of demand as small heat maps, one for each demand
 //! period.
 //!
 //! Demand is far from even, so the classes of the colours grow with the square of their number: the
@@ -14,9 +14,9 @@ use crate::panel::{Blocks, key};
 
 /// The most heat maps; with more periods, each of them shows some that follow each other.
 const MOST_PANELS: usize = 24;
-/// The most vertiports whose ids stand beside the rows and columns.
+/// The most vertiports whose ids stand next to the rows and columns.
 const MOST_NAMED: usize = 16;
-/// Classes of numbers, each with a colour of its own.
+/// Classes of numbers, each with a different colour.
 const CLASSES: usize = 6;
 /// Room between heat maps, across and down, pixels.
 const GAP: (f64, f64) = (18.0, 42.0);
@@ -142,7 +142,7 @@ impl<'a> Matrices<'a> {
         canvas.rectangle((area.left, area.top), (area.width, area.height), frame);
     }
 
-    /// The ids of the vertiports below the columns and, in the first column of heat maps, beside
+    /// The ids of the vertiports below the columns and, in the first column of heat maps, next to
     /// the rows. Where they are wide for their columns, every second one stands lower.
     fn names(&self, canvas: &mut Canvas, area: Area, is_first: bool) {
         let ids = || self.day.vertiports.iter().map(|one| one.id.as_str());
@@ -158,8 +158,8 @@ impl<'a> Matrices<'a> {
             let below = (area.left + middle, area.bottom() + 10.0 + lower);
             canvas.text(below, lettering.anchored(Anchor::Middle), &shortened(id, letters));
             if is_first {
-                let beside = (area.left - 5.0, area.top + middle + 3.0);
-                canvas.text(beside, lettering.anchored(Anchor::End), &shortened(id, 9));
+                let left_of_row = (area.left - 5.0, area.top + middle + 3.0);
+                canvas.text(left_of_row, lettering.anchored(Anchor::End), &shortened(id, 9));
             }
         }
     }

@@ -59,7 +59,7 @@ fn places((x, y): Point, radius: f64) -> [(Anchor, Point); 4] {
     ]
 }
 
-/// What a text of this width covers, whose line stands at the point.
+/// The area that a text of this width covers, with its line at the point.
 fn extent((anchor, (x, y)): (Anchor, Point), width: f64) -> Extent {
     let left = match anchor {
         Anchor::Start => x,

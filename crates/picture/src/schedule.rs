@@ -1,6 +1,6 @@
 //! A played day as pictures: where passengers flew, what every aircraft did, how full the
 //! vertiports were, how much demand was served and spilled, and where the money went. Each can be
-//! had by itself, or the first four on one sheet.
+//! drawn alone, or the first four on one sheet.
 
 use vertifleet_core::{Scenario, Time};
 use vertifleet_sim::TraceRow;
@@ -24,7 +24,7 @@ const TOP: f64 = 76.0;
 pub enum PlayedPicture {
     /// Where passengers flew.
     Map,
-    /// What every aircraft did.
+    /// The activities of every aircraft.
     Aircraft,
     /// The stands taken at every vertiport, against its capacity.
     Occupancy,

@@ -2,7 +2,7 @@
 //! against its capacity.
 //!
 //! Every capacity is drawn at the same height, so that full is full wherever one looks; its number
-//! stands beside it.
+//! stands next to it.
 
 use vertifleet_core::{Scenario, Time, VertiportIx};
 use vertifleet_sim::TraceRow;
@@ -14,7 +14,7 @@ use crate::occupancy::Occupancy;
 use crate::palette::Paint;
 use crate::panel::{Blocks, Clock, key};
 
-/// The most vertiports that have a panel of their own.
+/// The most vertiports that have separate panels.
 const MOST_PANELS: usize = 60;
 /// Height from a panel to the one below it, and of the part that is drawn in, pixels.
 const PITCH: f64 = 94.0;
@@ -28,7 +28,7 @@ pub(crate) fn height(day: &Scenario) -> f64 {
     PITCH * shown.div_ceil(columns(shown)) as f64
 }
 
-/// What is left out, if there are more vertiports than panels.
+/// A note on the vertiports that are left out, if there are more than panels.
 pub(crate) fn left_out(day: &Scenario) -> String {
     if day.vertiports.len() > MOST_PANELS {
         format!(", the first {MOST_PANELS} of {}", day.vertiports.len())

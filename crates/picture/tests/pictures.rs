@@ -1,4 +1,4 @@
-//! Pictures say what a trace says, at every moment of days of every kind.
+//! Pictures agree with the trace, at every moment of days of every kind.
 
 use std::sync::Arc;
 

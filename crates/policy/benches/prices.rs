@@ -23,7 +23,7 @@ fn prices(criterion: &mut Criterion) {
     let morning = DayPrices::of(simulation.view(), start);
     bench_renewal(
         &mut group,
-        "paper, found anew after a quarter of an hour",
+        "paper, found again after a quarter of an hour",
         &simulation,
         &morning,
     );
@@ -104,7 +104,7 @@ fn large(criterion: &mut Criterion) {
     let morning = DayPrices::of(simulation.view(), start);
     bench_renewal(
         &mut group,
-        "100 vertiports and 2,000 aircraft, found anew",
+        "100 vertiports and 2,000 aircraft, found again",
         &simulation,
         &morning,
     );

@@ -9,9 +9,9 @@ use crate::{DayPrices, PriceMemory};
 ///
 /// A choice depends on the decision, the view and the policy's own settings, and on nothing that
 /// the policy did on another day. Days that are played from their first decision to their last
-/// therefore have the same outcome in any order and on any number of threads. Most policies
-/// remember nothing and can also play many days by turns with the same outcome. A policy that looks
-/// ahead may remember the day that it is playing ([`PriceMemory`](crate::PriceMemory)), to continue
+/// therefore have the same outcome in any order and on any number of threads. Most policies keep no
+/// state and can also play many days in turn with the same outcome. A policy that looks ahead may
+/// keep results of the day that it is playing ([`PriceMemory`](crate::PriceMemory)), to continue
 /// from its earlier results; it must be able to start in the middle of any day without that memory.
 pub trait Policy: Send {
     /// Chooses a vertiport of [`View::feasible`], where the aircraft's own vertiport means hold.
@@ -21,10 +21,10 @@ pub trait Policy: Send {
     /// trace.
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError>;
 
-    /// Writes what the policy compares choices by, one number for each vertiport, the higher the
-    /// better; NaN for a choice that it does not consider. They are dollars, dollars an hour or
-    /// logits, as each policy says. A policy without such numbers, as by default, writes NaN for
-    /// all.
+    /// Writes the numbers by which the policy compares choices, one for each vertiport, the higher
+    /// the better; NaN for a choice that it does not consider. They are dollars, dollars an hour or
+    /// logits, as each policy documents. A policy without such numbers, as by default, writes NaN
+    /// for all.
     ///
     /// # Errors
     /// The errors of [`choose`](Self::choose).
@@ -41,8 +41,9 @@ pub trait Policy: Send {
         Ok(())
     }
 
-    /// Chooses, and writes what the choices were compared by, as [`values`](Self::values) does.
-    /// Policies for which both are one computation carry it out once.
+    /// Chooses, and writes the numbers by which the choices were compared, as
+    /// [`values`](Self::values) does. Policies for which both are one computation carry it out
+    /// once.
     ///
     /// # Errors
     /// The errors of [`choose`](Self::choose).

@@ -63,8 +63,8 @@ impl PriceMemory {
 impl Kept {
     /// Whether a decision is a later one of the same day.
     fn goes_on(&self, view: View<'_>, decision: &Decision) -> bool {
-        // A proposal may have been asked for a later time; its prices say nothing about the time
-        // before it.
+        // A proposal may have been asked for a later time; its prices do not cover the time before
+        // it.
         self.day == view.day()
             && self.decision <= decision.index
             && self.prices.made_at() <= decision.time

@@ -73,7 +73,7 @@ pub struct DayPrices {
     room: Option<Imagined>,
 }
 
-/// A feasible choice and what it is worth.
+/// A feasible choice and its worth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PricedChoice {
     /// Worth of the choice, dollars.

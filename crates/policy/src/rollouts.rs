@@ -1,7 +1,7 @@
 //! Roll-outs: a choice is played on for a while in the simulator, with every aircraft following the
 //! base rule. The value of the choice is the fleet's profit until then and its worth at that time.
 //!
-//! A single roll-out says little, because the next hour depends on which aircraft happens to be
+//! A single roll-out means little, because the next hour depends on which aircraft happens to be
 //! ready a second before another. A choice is therefore rolled out several times, with the worth of
 //! all choices perturbed by a little noise, which is the same for every choice that is compared.
 //! The value is the mean.
@@ -27,10 +27,10 @@ pub struct RolloutSettings {
     pub price_weight: f64,
 }
 
-/// The approximate number of vertiports that all roll-outs of a decision may look at. On large days
-/// there are fewer roll-outs.
+/// The approximate number of vertiports that all roll-outs of a decision may evaluate. On large
+/// days there are fewer roll-outs.
 const MOST_LOOKS: usize = 2_000_000;
-/// The least number of vertiports that the roll-outs of a decision look at for which threads are
+/// The least number of vertiports that the roll-outs of a decision evaluate for which threads are
 /// worth their coordination.
 const LEAST_SHARED_LOOKS: usize = 500_000;
 /// The approximate time from one decision of an aircraft to its next, seconds.
@@ -54,7 +54,7 @@ struct RolloutMemory {
 ///
 /// On large days the choices of a decision are rolled out on several threads, unless the caller is
 /// one of several threads that work side by side already, as where many days are compared. Every
-/// roll-out writes a number of its own, so the values do not depend on the threads.
+/// roll-out writes one number, so the values do not depend on the threads.
 #[derive(Debug, Clone)]
 pub struct RolloutEvaluator {
     settings: RolloutSettings,
@@ -243,7 +243,7 @@ impl RolloutSettings {
     }
 
     /// Number of roll-outs of each choice: one if nothing is at stake, so that noise would change
-    /// nothing, and fewer than the settings say on large days.
+    /// nothing, and fewer than the settings ask for on large days.
     fn rollouts(&self, prices: &DayPrices, view: View<'_>, choices: usize) -> u32 {
         if prices.stake_usd() == 0.0 {
             return 1;

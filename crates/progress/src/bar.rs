@@ -58,14 +58,14 @@ impl Bar {
         self.drawn.set_position(units);
     }
 
-    /// Shows a message beside the bar.
-    pub fn say(&self, message: String) {
+    /// Shows a message next to the bar.
+    pub fn show_message(&self, message: String) {
         self.drawn.set_message(message);
     }
 }
 
 impl Bar {
-    /// Removes the bar for good.
+    /// Removes the bar permanently.
     pub(crate) fn clear(&self) {
         self.drawn.finish_and_clear();
     }

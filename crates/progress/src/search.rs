@@ -41,7 +41,7 @@ impl SearchBar {
     /// Shows how far the search is, and the gap to the bound if the bound is known.
     pub fn show(&mut self, now: &SearchProgress, bound: Option<&Bound>) {
         self.shown.advance_to(now.share);
-        self.shown.bar.say(match bound {
+        self.shown.bar.show_message(match bound {
             Some(bound) => format!(
                 "profit ${:.0}, bound ${:.0}, gap {:.2} %",
                 now.profit_usd,

@@ -246,7 +246,7 @@ fn upper_bound_usd(live: &mut LiveDay) -> Result<Option<f64>, Error> {
     let Some(&(_, minutes)) = STEPS.iter().find(|(most, _)| size <= *most) else {
         return Ok(None);
     };
-    let Some(RemainingDay { day, ready }) = live.what_is_left()? else { return Ok(Some(so_far)) };
+    let Some(RemainingDay { day, ready }) = live.remaining_day()? else { return Ok(Some(so_far)) };
     let internal = |error: vertifleet_optimize::Error| Error::Internal { cause: error.to_string() };
     let step = Step::from_minutes(minutes).map_err(internal)?;
     let bound = upper_bound_of_rest(&Stop::default(), &day, &ready, step).map_err(internal)?;

@@ -1,5 +1,4 @@
-//! Which demand period the passengers of a played day come from, for those who account for it by
-//! period.
+//! Which demand period the passengers of a played day come from, for accounts by period.
 
 use vertifleet_core::{Matrix, Scenario, Time};
 
@@ -20,7 +19,7 @@ impl<'a> Boarded<'a> {
     }
 
     /// Takes the passengers of the next decision, and returns how many of them wanted to fly in
-    /// which period: those who have waited since the period before, and those of its own.
+    /// which period: those who have waited since the period before, and those of this period.
     pub fn board(&mut self, row: &TraceRow) -> [(usize, u16); 2] {
         let (period, pair) = (self.day.period_at(row.time), (row.from, row.to));
         let before = self.waiting_in(row.time);

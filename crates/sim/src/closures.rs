@@ -156,12 +156,12 @@ impl Closures {
         }
     }
 
-    /// Replaces the known closures. On the routes `told` nothing but these closes them any more.
+    /// Replaces the known closures. On the `reported` routes no other closure is in force any more.
     /// The report counts as a change of routes; `now` is the time of the day.
     pub(crate) fn announce(
         &mut self,
         known: &[Closure],
-        told: &[(VertiportIx, VertiportIx)],
+        reported: &[(VertiportIx, VertiportIx)],
         now: Time,
         size: usize,
     ) {
@@ -170,7 +170,7 @@ impl Closures {
         if !self.is_empty() {
             announced.unexpected.clone_from(&self.unexpected);
         }
-        for &(from, to) in told {
+        for &(from, to) in reported {
             announced.unexpected[from.at()].remove(to);
         }
         announced.surprises = self.surprises + 1;

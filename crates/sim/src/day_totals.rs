@@ -16,7 +16,7 @@ pub struct DayTotals {
     pub passenger_cost_usd: f64,
     /// Cost of charging (Eq. 3), dollars.
     pub energy_cost_usd: f64,
-    /// Cost of flights with or without passengers, beside their energy; dollars.
+    /// Cost of flights without their energy, with or without passengers; dollars.
     #[serde(default)]
     pub flight_cost_usd: f64,
     /// Cost of the fleet, whether or not it flies, dollars.
@@ -80,7 +80,7 @@ impl DayTotals {
         }
     }
 
-    /// What the fleet and its sites cost whatever is decided, dollars.
+    /// The fixed cost of the fleet and its sites, dollars.
     pub fn fixed_cost_usd(&self) -> f64 {
         self.aircraft_cost_usd + self.site_cost_usd
     }

@@ -1,8 +1,8 @@
-//! What is known of take-off delays at present, by which imagined days go on.
+//! The take-off delays that are known at present, with which imagined days continue.
 //!
-//! What holds one flight up at a vertiport holds up others too, so a flight is expected to be as
-//! late as the latest one that left the same vertiport in the same quarter of an hour. Nothing is
-//! expected of the quarters after that: on 160 days of `disrupted`, days on which every later
+//! A cause that delays one flight at a vertiport delays others too, so a flight is expected to be
+//! as late as the latest one that left the same vertiport in the same quarter of an hour. Nothing
+//! is expected of the quarters after that: on 160 days of `disrupted`, days on which every later
 //! flight was expected to be as late as the mean earned no more, whether or not the prices expected
 //! it too.
 
@@ -12,7 +12,7 @@ use crate::room::clone_into_room;
 
 /// Flights are expected to be as late as each other for so long, seconds of the clock.
 const TOGETHER_S: u32 = 900;
-/// A flight that is later than this is held up by something of its own, seconds.
+/// A flight that is later than this has a reason that no other flight shares, seconds.
 const MOST_S: u32 = 3_600;
 
 /// The delay of the flight that was decided last, for each vertiport.
@@ -42,8 +42,8 @@ impl Delays {
         }
     }
 
-    /// Takes note of how late a flight is, on a day with so many vertiports. It may be known before
-    /// it leaves, and corrected when it does.
+    /// Records how late a flight is, on a day with this number of vertiports. It may be known
+    /// before it leaves, and corrected when it does.
     pub(crate) fn note(
         &mut self,
         decided: Time,

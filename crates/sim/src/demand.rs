@@ -64,8 +64,8 @@ impl Demand {
         self.waiting_in = Some(period);
     }
 
-    /// Lets those who have waited leave, and returns whether anybody could have waited. They are
-    /// counted in their own period again, whose passengers cannot be carried any more.
+    /// Lets those who have waited leave, and returns whether any passenger could have waited. They
+    /// are counted in their own period again, whose passengers cannot be carried any more.
     pub(crate) fn leave(&mut self) -> bool {
         let Some(period) = self.waiting_in.take() else { return false };
         for (waiting, before, now) in self.pairs_of(period) {
@@ -136,8 +136,8 @@ impl Demand {
     }
 }
 
-/// What reports of a live day ask for and change: passengers by the period in which they wanted to
-/// fly, wherever they are counted now.
+/// Queries and changes by the reports of a live day: passengers by the period in which they wanted
+/// to fly, wherever they are counted now.
 impl Demand {
     /// How many passengers of a pair have waited since the period before.
     pub(crate) fn waiting(&self, from: VertiportIx, to: VertiportIx) -> u32 {

@@ -1,5 +1,5 @@
-//! The rest of a day as a policy may imagine it at a decision, to play out what a choice would lead
-//! to.
+//! The rest of a day as a policy may imagine it at a decision, to play out the consequences of a
+//! choice.
 
 use vertifleet_core::VertiportIx;
 

@@ -13,7 +13,7 @@ pub struct Ledger {
     pub passenger_cost_usd: f64,
     /// C^C (Eq. 3).
     pub energy_cost_usd: f64,
-    /// Cost of flights with or without passengers, beside their energy.
+    /// Cost of flights without their energy, with or without passengers.
     pub flight_cost_usd: f64,
     /// Cost of the fleet, whether or not it flies, entered when the day begins.
     pub aircraft_cost_usd: f64,
@@ -45,8 +45,8 @@ impl Ledger {
         }
     }
 
-    /// z (Eq. 5): revenue less passenger cost and energy cost, and less the cost of flights,
-    /// aircraft, stands and chargers beside them; dollars.
+    /// z (Eq. 5): revenue less passenger cost and energy cost, and less the other costs of flights,
+    /// aircraft, stands and chargers; dollars.
     #[inline]
     pub fn profit_usd(&self) -> f64 {
         self.revenue_usd
@@ -57,7 +57,7 @@ impl Ledger {
             - self.site_cost_usd
     }
 
-    /// What the day costs whatever is decided, dollars.
+    /// The fixed cost of the day, dollars.
     pub fn fixed_cost_usd(&self) -> f64 {
         self.aircraft_cost_usd + self.site_cost_usd
     }

@@ -1,15 +1,15 @@
-//! A day that happens. The simulator takes what is reported, instead of what it expects.
+//! A live day: reports of what happened replace what the simulator expects.
 //!
-//! What has not been reported yet is expected as the simulator would have it, by the same code: an
-//! aircraft that was sent off departs at once, lands after the flight's time and is ready when it
-//! is charged. If reports say just that, the live day is the simulated day, to the cent. Reports
-//! are taken one after the other ([`LiveDay::take`]), so a day is a function of its scenario and
-//! its reports.
+//! Until an event is reported, the simulator computes what to expect, by the same code as on other
+//! days: an aircraft that was sent off departs at once, lands after the flight's time and is ready
+//! when it is charged. If the reports match these expectations, the live day is the simulated day,
+//! to the cent. Reports are taken one after the other ([`LiveDay::take`]), so a day is a function
+//! of its scenario and its reports.
 
+mod remaining_day;
 mod report;
 mod reporter;
 mod take;
-mod what_is_left;
 
 use std::sync::Arc;
 
@@ -17,9 +17,9 @@ use vertifleet_core::{AircraftIx, Closure, Route, Scenario, Time, VertiportIx};
 
 use crate::{DayTotals, Decision, Imagined, Simulation, Trace, TraceRow, View};
 
+pub use remaining_day::RemainingDay;
 pub use report::{Booking, Notice, Report, ReportError, Routes};
 pub use reporter::Reporter;
-pub use what_is_left::RemainingDay;
 
 /// An aircraft that should have departed or landed so long ago is overdue, seconds.
 const LATE_S: u32 = 300;
@@ -83,7 +83,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// What an aircraft does that is on its way; `None` if it stands.
+    /// The state of an aircraft on its way; `None` if it stands.
     fn on_its_way(self) -> Option<&'static str> {
         match self {
             Self::Standing => None,
@@ -93,7 +93,7 @@ impl Phase {
     }
 }
 
-/// A decision with what it takes to undo it.
+/// A decision with the state that is needed to undo it.
 #[derive(Debug, Clone)]
 struct LiveDecision {
     row: TraceRow,
@@ -113,7 +113,7 @@ impl LiveDecision {
 }
 
 /// An aircraft before a decision: when it was charged, when it had landed, and whether it waited
-/// beside the chargers.
+/// without a charger.
 #[derive(Debug, Clone, Copy)]
 struct Before {
     charged: Time,
@@ -121,12 +121,12 @@ struct Before {
     waited: bool,
 }
 
-/// What is known of an aircraft.
+/// The known state of an aircraft.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct AircraftNow {
     /// The aircraft.
     pub aircraft: AircraftIx,
-    /// What it does.
+    /// Its activity.
     pub phase: Phase,
     /// The vertiport where it stands or will land.
     pub place: VertiportIx,
@@ -152,8 +152,8 @@ fn one_way(closure: &Closure) -> impl Iterator<Item = Closure> + use<> {
 
 impl LiveDay {
     /// A day before its first report. Of the scenario it takes what is expected: the forecast where
-    /// the demand differs from it, and closures that are known; what else disturbs the day has to
-    /// be reported.
+    /// the demand differs from it, and closures that are known; other disturbances have to be
+    /// reported.
     pub fn new(scenario: Arc<Scenario>) -> Self {
         let scenario =
             if scenario.disturbances.is_none() { scenario } else { Arc::new(scenario.expected()) };
@@ -228,8 +228,7 @@ impl LiveDay {
     /// The decision of an aircraft at a time, or now if that is later.
     ///
     /// # Errors
-    /// Returns an [`ReportError`] if the aircraft is not ready then, or if no decisions are taken
-    /// any more.
+    /// Returns a [`ReportError`] if the aircraft is not ready then, or if operations are over.
     pub fn decision(&self, aircraft: AircraftIx, time: Time) -> Result<Decision, ReportError> {
         let id =
             self.scenario().aircraft.get(aircraft.at()).ok_or(ReportError::Unknown("aircraft"))?;
@@ -258,7 +257,7 @@ impl LiveDay {
         Ok(Decision { time, aircraft, at: self.known.place[aircraft.at()], index })
     }
 
-    /// The day as a policy sees it at a [decision](Self::decision). It is written into `room`,
+    /// The day as a policy observes it at a [decision](Self::decision). It is written into `room`,
     /// which keeps its memory from one decision to the next.
     pub fn view_at<'room>(
         &mut self,
@@ -282,8 +281,8 @@ impl LiveDay {
         Imagined::of_expected(day)
     }
 
-    /// Lets a copy of what is known go on from a time: nothing that has not happened yet happens
-    /// earlier. If an aircraft decides then, it is the first.
+    /// Lets a copy of the known state continue from a time: nothing that has not happened yet
+    /// happens earlier. If an aircraft decides then, it is the first.
     fn expect_from(&self, day: &mut Simulation, time: Time, first: Option<AircraftIx>) {
         day.advance_to(time);
         for aircraft in AircraftIx::all(self.aircraft.len()) {
@@ -403,7 +402,7 @@ impl LiveDay {
         &self.boarded[period * pairs..][..pairs]
     }
 
-    /// What people should look at now: vertiports that have more aircraft than stands, and aircraft
+    /// Notices for people at present: vertiports that have more aircraft than stands, and aircraft
     /// that are overdue.
     pub fn notices(&self) -> impl Iterator<Item = Notice> + '_ {
         let vertiports = VertiportIx::all(self.scenario().vertiports.len());

@@ -126,7 +126,7 @@ impl Simulation {
         })
     }
 
-    /// Goes on to a time, which is not before the latest one.
+    /// Advances to a time, which is not before the latest one.
     #[inline]
     pub(crate) fn advance_to(&mut self, time: Time) {
         if self.next_change <= time {

@@ -2,8 +2,7 @@
 
 use crate::{Simulation, View};
 
-/// A day at one moment. It can only be looked at, and shows what its [`View`] showed at that
-/// moment.
+/// A day at one moment. It is read-only, and shows what its [`View`] showed at that moment.
 #[derive(Debug, Clone)]
 pub struct Snapshot(Simulation);
 

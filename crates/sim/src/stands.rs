@@ -31,7 +31,7 @@ struct Parking {
     taken: Vec<u16>,
     /// Number of such stands; 0 where stands are the only pool.
     limit: Vec<u16>,
-    /// Whether each aircraft waits on a stand beside the chargers.
+    /// Whether each aircraft waits on a stand without a charger.
     waits: Vec<bool>,
 }
 
@@ -83,7 +83,7 @@ impl Stands {
         &self.limit
     }
 
-    /// Number of aircraft that wait on stands beside chargers, and number of such stands; both 0
+    /// Number of aircraft that wait on stands without a charger, and number of such stands; both 0
     /// where stands are the only pool.
     pub(crate) fn parked(&self, vertiport: VertiportIx) -> (u16, u16) {
         let parking = self.parking.as_ref();
@@ -122,8 +122,8 @@ impl Stands {
         }
     }
 
-    /// Frees the stand of an aircraft that waits on one beside chargers. Returns `false` if it does
-    /// not wait on one.
+    /// Frees the stand of an aircraft that waits on one without a charger. Returns `false` if it
+    /// does not wait on one.
     #[cold]
     fn leave_stand(&mut self, aircraft: AircraftIx, from: VertiportIx) -> bool {
         let Some(parking) = &mut self.parking else { return false };
@@ -151,20 +151,20 @@ impl Stands {
         self.free(at);
     }
 
-    /// Whether an aircraft waits on a stand beside chargers.
+    /// Whether an aircraft waits on a stand without a charger.
     pub(crate) fn waits(&self, aircraft: AircraftIx) -> bool {
         self.parking.as_ref().is_some_and(|parking| parking.waits[aircraft.at()])
     }
 
-    /// Frees whatever an aircraft takes at a vertiport.
+    /// Frees the stand or charger that an aircraft takes at a vertiport.
     pub(crate) fn leave(&mut self, aircraft: AircraftIx, at: VertiportIx) {
         if self.parking.is_none() || !self.leave_stand(aircraft, at) {
             self.free(at);
         }
     }
 
-    /// Takes a place at a vertiport, even if there is none free: a report says that the aircraft is
-    /// there, or was on its way. With `waits` it is a stand beside chargers.
+    /// Takes a place at a vertiport, even if there is none free: it was reported there, or on its
+    /// way. With `waits` it is a stand without a charger.
     pub(crate) fn take(&mut self, aircraft: AircraftIx, at: VertiportIx, waits: bool) {
         if waits && let Some(parking) = &mut self.parking {
             parking.waits[aircraft.at()] = true;

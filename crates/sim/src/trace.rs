@@ -13,7 +13,7 @@ use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 pub use error::TraceError;
 
 /// The members of a row, in the order of the file's columns. The last one exists only on days on
-/// which flights have a cost beside their energy.
+/// which flights have a cost besides their energy.
 const COLUMNS: [&str; 12] = [
     "time",
     "aircraft",

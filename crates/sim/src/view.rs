@@ -205,7 +205,7 @@ impl<'a> View<'a> {
         self.scenario().flight_cost_usd.row(from)
     }
 
-    /// What the day costs whatever is decided: its fleet, and its stands and chargers; dollars.
+    /// The fixed cost of the day: its fleet, and its stands and chargers; dollars.
     pub fn fixed_cost_usd(&self) -> f64 {
         self.scenario().fixed_cost_usd()
     }
@@ -292,7 +292,7 @@ impl<'a> View<'a> {
         room.get_or_insert_with(|| self.imagined())
     }
 
-    /// The day as it is now, to be looked at later.
+    /// The day as it is now, to be read later.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot::of(self.simulation)
     }

@@ -1,6 +1,6 @@
-//! What tests of several crates share. First of all these are days: strategies for property tests,
-//! days drawn from a number, and days of `paper`. For the tests of the service there are a database
-//! server and texts that are spoilt.
+//! Test support that several crates share. First of all these are days: strategies for property
+//! tests, days drawn from a number, and days of `paper`. For the tests of the service there are a
+//! database server and invalid texts.
 //!
 //! This crate builds on `vertifleet-core` alone and is a dependency of tests only.
 //!

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 /// A server has so long to start, also after a crash.
 const START_TIMEOUT: Duration = Duration::from_secs(20);
 
-/// A database server of its own, on a port of its own. It ends when it is dropped.
+/// A separate database server on a free port. It ends when it is dropped.
 #[derive(Debug)]
 pub struct Postgres {
     folder: tempfile::TempDir,
@@ -42,7 +42,7 @@ impl Postgres {
         Self { folder, port, server }
     }
 
-    /// The address of the database, as a service is told it.
+    /// The address of the database, in the form that a service takes.
     pub fn url(&self) -> String {
         format!("postgres://postgres@127.0.0.1:{}/postgres", self.port)
     }
@@ -68,7 +68,7 @@ impl Postgres {
         self.signal_connections("-STOP");
     }
 
-    /// Lets them go on.
+    /// Lets them continue.
     pub fn thaw(&self) {
         self.signal_connections("-CONT");
         self.signal("-CONT");
@@ -76,7 +76,7 @@ impl Postgres {
         let _ = Command::new("kill").args(["-CONT", &self.server.id().to_string()]).status();
     }
 
-    /// Connections have processes of their own.
+    /// Connections have separate processes.
     fn signal_connections(&self, signal: &str) {
         let pid = self.pid();
         let children = std::fs::read_to_string(format!("/proc/{pid}/task/{pid}/children"));

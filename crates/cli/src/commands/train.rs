@@ -87,7 +87,7 @@ impl TrainingWatch for Shown {
     fn has_learned(&self, curve: &Curve, steps_per_second: f64) {
         let shown = SHOWN.iter().find_map(|column| Some((column, column.last(curve)?)));
         let speed = format!("{steps_per_second:.0} decisions/s");
-        self.0.say(match shown {
+        self.0.show_message(match shown {
             Some((column, number)) => {
                 format!("{speed}, {} {}", column.label.trim(), (column.text)(number))
             }

@@ -1,4 +1,4 @@
-//! What two network files say differently, by the paths that changes and sweeps take.
+//! The members in which two network files differ, by the paths that changes and sweeps use.
 
 use serde::Serialize;
 use toml::Value;
@@ -6,20 +6,20 @@ use toml::Value;
 use super::member_path::quoted;
 use crate::Network;
 
-/// A member that two network files say differently.
+/// A member in which two network files differ.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Difference {
     /// Where it is: `vertiports.JFK.stands`.
     pub path: String,
-    /// What the first file says; `None` if it does not have the member.
+    /// The value in the first file; `None` if the file does not have the member.
     pub before: Option<String>,
-    /// What the second file says.
+    /// The value in the second file; `None` if the file does not have the member.
     pub after: Option<String>,
 }
 
 impl Network {
-    /// What another network's file says differently, with members in the order of their names.
-    /// Comments and the order of members do not count, nor does the order of vertiports and
+    /// The differences between this network's file and another one's, in the order of the members'
+    /// names. Comments and the order of members do not count, nor does the order of vertiports and
     /// aircraft types, which have names.
     pub fn differences(&self, other: &Self) -> Vec<Difference> {
         let read = |network: &Self| -> Value {
@@ -68,8 +68,8 @@ fn compare(
     }
 }
 
-/// Lists of numbers are one difference, since the place of an entry says little; other lists are
-/// compared entry by entry.
+/// Lists of numbers are one difference, since the position of an entry means little; other lists
+/// are compared entry by entry.
 fn compare_positions(path: &str, before: &[Value], after: &[Value], found: &mut Vec<Difference>) {
     let are_plain = |list: &[Value]| list.iter().all(|value| !value.is_table());
     if are_plain(before) && are_plain(after) {

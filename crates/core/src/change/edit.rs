@@ -63,7 +63,8 @@ fn set_in_tables(entries: &mut ArrayOfTables, path: &[&str], value: &Value) -> R
         match (rest, value) {
             ([_, ..], _) => set(entry, rest, value)?,
             ([], Value::InlineTable(members)) => *entry = members.clone().into_table(),
-            // What is no table is refused when the file is read, as an entry with nothing in it.
+            // An entry that is no table becomes an empty one, which is refused when the file is
+            // read.
             ([], _) => *entry = Table::new(),
         }
     }

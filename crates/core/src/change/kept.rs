@@ -1,4 +1,4 @@
-//! What a changed network keeps of the one that it was made from, so that the days of both are
+//! The properties that a changed network keeps from its base, so that the days of both are
 //! comparable: where aircraft start, and the fares at which the demand was measured. Both are
 //! written into the changed file.
 
@@ -64,7 +64,7 @@ fn responds(file: &Table) -> bool {
     elasticity.is_some_and(|elasticity| elasticity != 0.0) || market.contains_key("elasticities")
 }
 
-/// What a member of the tariffs is where the file does not have it.
+/// The default of a member of the tariffs, for a file that does not have it.
 fn absent(member: &str, periods: usize) -> Value {
     match member {
         "fare_factors" => Value::Array((0..periods).map(|_| 1.0).collect()),

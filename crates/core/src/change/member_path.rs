@@ -1,7 +1,7 @@
 //! Paths of members of a network file, such as `vertiports.JFK.stands`.
 //!
-//! The names of a path are separated by dots. A name that holds a dot, an equals sign or a quote
-//! stands in quotes, in which a backslash comes before each quote and backslash:
+//! The names of a path are separated by dots. A name that contains a dot, an equals sign or a quote
+//! is written in quotes, with a backslash before each quote and backslash in it:
 //! `vertiports."St. John".stands`.
 
 use std::borrow::Cow;
@@ -17,7 +17,7 @@ pub(crate) fn names(path: &str) -> Vec<String> {
     names
 }
 
-/// A name as it stands in a path.
+/// A name as it is written in a path.
 pub(crate) fn quoted(name: &str) -> Cow<'_, str> {
     if !name.contains(['.', '=', '"']) {
         return Cow::Borrowed(name);

@@ -1,5 +1,5 @@
 //! How a pair's passengers of a period scatter around their mean, as a network file chooses. The
-//! draws are whole passengers, and yet their mean is exactly the mean that was asked for.
+//! draws are whole passengers, and their mean is exactly the given one.
 
 use rand_chacha::ChaCha8Rng;
 use serde::Deserialize;

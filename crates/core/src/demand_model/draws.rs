@@ -1,4 +1,4 @@
-//! Draws of whole passengers whose mean is exactly the mean asked for, however thin demand is.
+//! Draws of whole passengers whose mean is exactly the given one, even where demand is thin.
 //!
 //! They are written out with the functions of `libm`. Apart from the standard normal, the
 //! distributions of `rand_distr` take logarithms from the system's library as soon as any crate of

@@ -1,5 +1,5 @@
 //! Mean passengers of each pair and period, as a planner's own study or counts give them. They are
-//! rows in the network file, or a table beside it (`demand_table.rs`).
+//! rows in the network file, or a separate table (`network_file/demand_table.rs`).
 
 use std::collections::HashSet;
 

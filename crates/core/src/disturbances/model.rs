@@ -115,7 +115,7 @@ impl Late {
     /// rounds them.
     fn probabilities(self) -> Vec<f64> {
         let most_s = if self.mean_s > 0.0 { to_whole(self.most_s) } else { 0 };
-        // The probability of a delay that is rounded to no less than so many seconds.
+        // The probability of a delay that is rounded to at least this number of seconds.
         let at_least = |delay_s: u32| match delay_s {
             0 => 1.0,
             delay_s if delay_s > most_s => 0.0,

@@ -80,8 +80,8 @@ pub enum FormatError {
         found: String,
     },
 
-    /// The file does not say which format it has, so it is probably something else. Fix: give
-    /// the right file.
+    /// The file does not name its format, so it is probably something else. Fix: give the right
+    /// file.
     #[error("has no member `format`, which would be {expected:?}")]
     NoFormat {
         /// The format that this program reads.
@@ -89,7 +89,7 @@ pub enum FormatError {
     },
 
     /// V108 empty or endless list. A list is empty or has more entries than the program takes, or
-    /// an entry of `[[closures]]` names neither routes nor vertiports. The message says how many
+    /// an entry of `[[closures]]` names neither routes nor vertiports. The message states how many
     /// entries the list may have. A closed vertiport counts as a route to every other vertiport.
     ///
     /// Fix: add or remove entries.
@@ -226,8 +226,8 @@ pub enum FormatError {
     /// but has two or none of them: for example a vertiport's position in miles and by latitude and
     /// longitude, or two demand models.
     ///
-    /// Fix: keep the member that is meant. The positions of all vertiports of a network are given
-    /// in the same way.
+    /// Fix: keep the intended member. The positions of all vertiports of a network are given in the
+    /// same way.
     #[error("{member} must have {choices}, found {found}")]
     NotOneOf {
         /// The member that contains them.
@@ -269,8 +269,8 @@ pub enum FormatError {
     /// does not fit its columns, or the first line does not have the names of the columns.
     ///
     /// Fix: correct the line that the message names. Columns are separated by commas, and numbers
-    /// have a decimal point and no thousands separator. Some spreadsheets write semicolons and
-    /// decimal commas unless they are told otherwise.
+    /// have a decimal point and no thousands separator. By default, some spreadsheets write
+    /// semicolons and decimal commas.
     #[error("line {line}: {column} must be {rule}, found {found:?}")]
     TableRow {
         /// The row's line, from 1.
@@ -283,8 +283,8 @@ pub enum FormatError {
         found: String,
     },
 
-    /// V132 table of demand without a folder. A network names a table of demand beside its file,
-    /// but the network is given as a text, which is not in any folder.
+    /// V132 table of demand without a folder. A network names a table of demand in the folder of
+    /// its file, but the network is given as a text, which is not in any folder.
     ///
     /// Fix: read the network from its file, or put the rows of the table into it as `pairs`.
     #[error(
@@ -295,8 +295,8 @@ pub enum FormatError {
         table: String,
     },
 
-    /// V133 pair given twice. The demand, the tariff or the elasticity of a pair stands twice in
-    /// its list, or the demand of a pair and period twice in the table.
+    /// V133 pair given twice. A list has the demand, the tariff or the elasticity of a pair twice,
+    /// or a table has the demand of a pair and period twice.
     ///
     /// Fix: remove one of the two.
     #[error("{member} gives {what} again")]

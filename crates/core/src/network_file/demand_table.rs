@@ -1,9 +1,8 @@
-//! A table of demand beside a network file: CSV with the columns period, from, to and passengers,
-//! as a spreadsheet writes it.
+//! A table of demand in the folder of a network file: CSV with the columns period, from, to and
+//! passengers, as a spreadsheet writes it.
 //!
-//! A network keeps everything it says in its own text, so that a copy of the text draws the same
-//! days elsewhere. The rows of the table therefore replace the member that names it, and no later
-//! code knows of the table.
+//! The text of a network is complete, so that a copy of it draws the same days elsewhere. The rows
+//! of the table therefore replace the member that names it, and later code does not use the table.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -48,8 +47,8 @@ struct Pair {
     passengers: Vec<f64>,
 }
 
-/// A pair as it stands in a network file. Whole numbers are written without a fraction, which keeps
-/// the text short.
+/// A pair as it is written in a network file. Whole numbers are written without a fraction, which
+/// keeps the text short.
 #[expect(clippy::cast_possible_truncation, reason = "within bounds, and only whole numbers")]
 fn pair_value(pair: &Pair, vertiports: &[&str]) -> toml::Value {
     let number = |&mean: &f64| {

@@ -1,4 +1,4 @@
-//! Every finding about a network file at once, for people who are writing one.
+//! All findings about a network file in one pass, for people who are writing one.
 //!
 //! Reading stops at the first error, because later checks rely on earlier ones. Here each entry of
 //! each list is checked alone, and what refers to vertiports is checked if these are sound. A
@@ -21,14 +21,14 @@ impl Found {
     }
 }
 
-/// Every error of the text of a network file that can be told at once; none if it can be read.
+/// All errors of the text of a network file that can be found in one pass; none if it can be read.
 pub(crate) fn findings(text: &str, folder: Option<&Path>, origin: &str) -> Vec<Error> {
     let Err(first) = network(text, folder, origin) else { return Vec::new() };
     let text = text.strip_prefix(parse::MARK).unwrap_or(text);
     let Ok(raw) = parse::toml::<RawNetwork>(text, FORMAT) else { return vec![first] };
     let mut found = Found(Vec::new());
     raw.findings(&mut found);
-    // What only shows in the whole, such as distances or a table of demand, comes last.
+    // An error that only the whole file has, as of distances or a table of demand, comes last.
     let message = first.to_string();
     let mut found: Vec<Error> = found.0.into_iter().map(|error| error.in_file(origin)).collect();
     if found.iter().all(|error| error.to_string() != message) {
@@ -84,7 +84,7 @@ impl RawNetwork {
         let models = DemandModels {
             equation_1: self.demand,
             daily: self.daily_demand,
-            // A table beside the file is read with the whole file.
+            // A table in another file is read with the whole file.
             hourly: self.hourly_demand.filter(|hourly| hourly.table.is_none()),
             uniform: self.uniform_demand,
         };

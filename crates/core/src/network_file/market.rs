@@ -1,8 +1,8 @@
 //! How passengers respond to fares, and how large the whole market is: `[market]` of the network
 //! file.
 //!
-//! The demand model says who wants to fly at the *reference fares*. At another fare P in place of
-//! the reference fare P0 a pair has
+//! The demand model gives the passengers who want to fly at the *reference fares*. At another fare
+//! P in place of the reference fare P0 a pair has
 //!
 //! ```text
 //! Q = Q0 x demand_factor x exp(elasticity x (1 - P / P0))
@@ -144,7 +144,7 @@ mod tests {
     /// The fare with the highest margin, searched for on a fine grid, is the passenger's cost plus
     /// P0 / elasticity.
     #[test]
-    fn revenue_has_its_maximum_where_the_formula_says() {
+    fn revenue_has_its_maximum_at_the_fare_of_the_formula() {
         let (cost_usd, reference_usd) = (12.0, 90.0);
         for elasticity in [0.5, 1.0, 2.0] {
             let margin =

@@ -16,8 +16,7 @@ pub(crate) struct RawScheduledClosure {
     routes: Vec<RawRoute>,
     #[serde(default)]
     vertiports: Vec<String>,
-    /// Closures that come at the same time every day are known in advance, unless the file says
-    /// otherwise.
+    /// Closures that come at the same time every day are known in advance by default.
     #[serde(default = "announced")]
     known: bool,
 }

@@ -102,7 +102,7 @@ impl Sites {
 }
 
 /// Where places lie on both sides of the antimeridian, counts longitudes in the east on past 180
-/// degrees, so that the plane shows neighbours beside each other. Others are left as they are, to
+/// degrees, so that neighbours are next to each other in the plane. Others are left as they are, to
 /// the bit.
 fn count_past_antimeridian(places: &mut [(f64, f64)]) {
     let longitudes = || places.iter().map(|place| place.1);

@@ -37,7 +37,7 @@ pub(crate) struct RawTariffs {
     pairs: Vec<RawPairTariff>,
 }
 
-/// What a single pair has in place of what the formulas give.
+/// The amounts of a single pair, in place of those of the formulas.
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the members of a pair's tariff")]
 pub(crate) struct RawPairTariff {
@@ -57,7 +57,7 @@ pub(crate) struct Tariffs {
     passenger_costs_usd: Vec<((VertiportIx, VertiportIx), f64)>,
 }
 
-/// What a stand and a charger cost, whether or not they are used; dollars a day.
+/// The cost of a stand and of a charger, whether or not they are used; dollars a day.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SiteCosts {
     pub(crate) stand_usd: f64,
@@ -80,7 +80,7 @@ fn one() -> f64 {
 }
 
 impl RawTariffs {
-    /// What a stand and a charger cost a day where their vertiport does not say, dollars.
+    /// The daily cost of a stand and of a charger at vertiports that do not state it, dollars.
     pub(crate) fn site_costs_usd(&self) -> SiteCosts {
         let Self { stand_cost_usd_per_day, charger_cost_usd_per_day, .. } = *self;
         SiteCosts { stand_usd: stand_cost_usd_per_day, charger_usd: charger_cost_usd_per_day }
@@ -99,7 +99,7 @@ impl RawTariffs {
         Ok(tariffs)
     }
 
-    /// Checks the numbers; `section` is where they stand in the file.
+    /// Checks the numbers; `section` is their section of the file.
     fn check_numbers(&self, section: &str, periods: usize) -> Result<(), FormatError> {
         for (member, value, limits) in [
             ("passenger_cost_usd_per_mi", self.passenger_cost_usd_per_mi, &limits::TARIFF),
@@ -130,8 +130,8 @@ impl RawTariffs {
 }
 
 impl Tariffs {
-    /// Takes what single pairs have in place of what the formulas give; `section` is where it
-    /// stands in the file.
+    /// Takes the amounts of single pairs, in place of those of the formulas; `section` is their
+    /// section of the file.
     fn take_pairs(
         &mut self,
         section: &str,
@@ -237,7 +237,7 @@ impl Tariffs {
         self.rules.aircraft_cost_usd_per_day
     }
 
-    /// P_ij, dollars a passenger: what `pairs` says, or else R_ij (base + weight Qbar_ij / max
+    /// P_ij, dollars a passenger: the fare in `pairs`, or else R_ij (base + weight Qbar_ij / max
     /// Qbar) + fare per mile x d_ij; times the period's factor, plus the boarding fee; times the
     /// level of all fares. The demand is the one at the reference fares.
     pub(crate) fn fares_usd(&self, distance_mi: &Matrix<f64>, demand: &DemandModel) -> Fares {

@@ -37,7 +37,7 @@ pub enum OutputError {
     /// folder for a report holds something else.
     ///
     /// Fix: name another file or folder, or replace it with `--force` (in Python `force=True`). A
-    /// folder is then kept beside the report, as `NAME.old`.
+    /// folder is then kept next to the report, as `NAME.old`.
     #[error("{origin}: is there already, and is no {kind} that this program wrote")]
     NotOurs {
         /// The file or folder.

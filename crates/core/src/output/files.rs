@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 use crate::Error;
-use crate::paths::{folder_of, leads_somewhere, origin};
+use crate::paths::{folder_of, origin, refuse_dangling_link};
 
 /// Held for reading while a file is written, and for writing when the process is to end, so that it
 /// ends between two files.
@@ -53,7 +53,7 @@ pub(crate) fn writing() -> RwLockReadGuard<'static, ()> {
 }
 
 fn write(path: &Path, contents: &[u8]) -> io::Result<()> {
-    leads_somewhere(path)?;
+    refuse_dangling_link(path)?;
     let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let former = fs::metadata(&target).ok();
     if former.as_ref().is_some_and(|former| !former.is_file()) {

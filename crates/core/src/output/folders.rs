@@ -22,8 +22,8 @@ pub struct FolderKind {
 }
 
 impl FolderKind {
-    /// Whether everything in the folder was written by this program, as far as names and the mark
-    /// tell.
+    /// Whether everything in the folder was written by this program, judged by the names and the
+    /// mark.
     fn is_of(&self, folder: &Path) -> io::Result<bool> {
         let (mark, kinds) = self.mark;
         let mut empty = true;
@@ -112,7 +112,7 @@ fn is_mounted(_: &Metadata, _: &Metadata) -> bool {
 /// A former folder is removed if it is of the same kind. Any other is kept under another name,
 /// which is returned; that requires `force`.
 ///
-/// The new folder is made beside the old one, and two renames exchange them. A process that is
+/// The new folder is made next to the old one, and two renames exchange them. A process that is
 /// killed just between the renames leaves both in a folder whose name begins with `.vertifleet-`.
 ///
 /// # Errors

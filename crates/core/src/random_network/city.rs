@@ -1,4 +1,4 @@
-//! Networks like those of real cities, drawn from a number, to learn on.
+//! Networks like those of real cities, drawn from a number, to train on.
 //!
 //! [`random_network`](crate::random_network) draws networks whose flights are mostly full. In
 //! cities a pair has a few passengers an hour, spread by gravity and drawn one by one; two types of
@@ -121,7 +121,7 @@ fn write_tariffs(text: &mut String, hours: usize, random: &mut ChaCha8Rng) {
     }
 }
 
-/// 40 to 140 passengers a day for each aircraft, by gravity, who decide by themselves.
+/// 40 to 140 passengers a day for each aircraft, by gravity, who decide independently.
 fn write_demand(
     text: &mut String,
     (vertiports, fleet): (usize, usize),

@@ -13,9 +13,9 @@ use crate::{Error, Network, Purpose};
 /// Side of the square that places are drawn from, miles (§V.A).
 const SIDE_MI: f64 = 50.0;
 /// No two vertiports are nearer to each other, miles.
-const APART_MI: f64 = 1.0;
+const LEAST_DISTANCE_MI: f64 = 1.0;
 /// Aircraft for each vertiport, as in `paper`.
-const AIRCRAFT_A_VERTIPORT: usize = 5;
+const AIRCRAFT_PER_VERTIPORT: usize = 5;
 
 /// The numbers of vertiports that [`random_places`] takes.
 pub const RANDOM_PLACES: RangeInclusive<usize> = 2..=60;
@@ -54,7 +54,7 @@ pub fn random_places(purpose: Purpose, vertiports: usize, number: u64) -> Result
         .expect("memory takes everything");
     }
     text.push_str("[[aircraft_types]]");
-    let fleet = format!("count = {}", AIRCRAFT_A_VERTIPORT * vertiports);
+    let fleet = format!("count = {}", AIRCRAFT_PER_VERTIPORT * vertiports);
     text.push_str(&after.replace("count = 40", &fleet));
     Ok(Network::from_toml(&text, &name).expect("every number drawn is within its bounds"))
 }
@@ -65,7 +65,7 @@ fn places(random: &mut ChaCha8Rng, vertiports: usize) -> Vec<(f64, f64)> {
         let mut draw = || (10.0 * random.random_range(0.0..SIDE_MI)).round() / 10.0;
         let place = (draw(), draw());
         let is_apart =
-            |other: &(f64, f64)| (other.0 - place.0).hypot(other.1 - place.1) >= APART_MI;
+            |other: &(f64, f64)| (other.0 - place.0).hypot(other.1 - place.1) >= LEAST_DISTANCE_MI;
         if places.iter().all(is_apart) {
             places.push(place);
         }

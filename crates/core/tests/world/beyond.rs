@@ -113,7 +113,7 @@ fn a_day_with_everything_reads_back_as_it_was_written() {
 }
 
 #[test]
-fn passengers_of_a_network_wait_as_long_as_it_says_and_of_a_shipped_one_not_at_all() {
+fn passengers_of_a_network_wait_as_long_as_its_file_states_and_of_a_shipped_one_not_at_all() {
     let text = PAPER.replace("hold_s = 900", "hold_s = 900\npassenger_wait_s = 600");
     let (paper, waiting) = (with("").draw(seed(1)).into_day(), network(&text).draw(seed(1)));
     assert_eq!(waiting.operations.passenger_wait_s, 600);
@@ -141,7 +141,7 @@ fn passengers_may_wait_as_long_as_the_shortest_period_that_another_one_follows()
     let three = ["06:00:00", "06:50:00", "08:00:00"];
     assert_eq!(of(&three, 3_000), Ok(()));
     assert_eq!(of(&three, 3_001), Err("V104".to_owned()));
-    // The last period has none after it, however early it is over.
+    // No period follows the last one, even if it is over early.
     assert_eq!(of(&["06:00:00", "09:29:00"], 3_600), Ok(()));
     assert_eq!(of(&["06:00:00"], 86_400), Ok(()));
     assert_eq!(of(&["06:00:00"], 86_401), Err("V104".to_owned()));
@@ -196,7 +196,7 @@ fn each_disturbance_has_a_stream_of_its_own() {
 }
 
 #[test]
-fn disturbances_are_as_frequent_and_as_large_as_the_network_says() {
+fn disturbances_are_as_frequent_and_as_large_as_in_the_network_file() {
     const DAYS: u64 = 400;
     let network = with(DISTURBANCES);
     let (mut closed, mut out, mut late, mut count, mut late_s) =
@@ -354,7 +354,7 @@ fn the_pairs_of_new_york_are_2_to_40_miles_apart_and_18_on_the_mean() {
 }
 
 #[test]
-fn a_network_closes_what_it_says_at_the_same_times_every_day() {
+fn scheduled_closures_are_at_the_same_times_every_day() {
     let (open, closed) = (with(""), with(CLOSURES));
     for number in 0..20 {
         let mut day = closed.draw(seed(number)).into_day();
@@ -385,7 +385,7 @@ fn a_network_closes_what_it_says_at_the_same_times_every_day() {
 }
 
 #[test]
-fn closures_of_every_day_come_beside_those_that_are_drawn() {
+fn scheduled_closures_add_to_those_that_are_drawn() {
     let (drawn, both) = (with(DISTURBANCES), with(&format!("{CLOSURES}{DISTURBANCES}")));
     for number in 0..20 {
         let drawn = drawn.draw(seed(number)).into_day().disturbances.closures;

@@ -58,7 +58,7 @@ fn one_seed_gives_one_day() {
 }
 
 #[test]
-fn a_network_knows_the_days_that_it_draws() {
+fn a_network_recognises_the_days_that_it_draws() {
     let day = paper().draw(seed(7));
     let read = Scenario::from_json(day.to_json().as_bytes(), "day.json").expect("a day");
     assert!(paper().draws(&day) && paper().draws(&read));

@@ -246,7 +246,7 @@ const HOURLY_DEMANDS: &[&str] = &[
     "pairs = []\nnoise = 0.5",
 ];
 
-/// Tables beside the network file.
+/// Tables in the folder of the network file.
 const TABLES: &[&str] = &[
     "",
     "period;from;to;passengers\n06:00:00;A;B;1",
@@ -263,7 +263,7 @@ const TABLES: &[&str] = &[
     "period,from,to,passengers\n06:00:00,A,B,1\n8:00:00,A,B,1\n6:00:00,A,B,2",
 ];
 
-/// The good network with hourly demand instead of its own.
+/// The good network with hourly demand in place of its demand model.
 fn hourly(members: &str) -> String {
     let begin = NETWORK.find("[demand]").expect("a demand model");
     let end = NETWORK.find("[feature_scales]").expect("what follows it");
@@ -271,7 +271,7 @@ fn hourly(members: &str) -> String {
     format!("{}[hourly_demand]\n{periods}\n{members}\n\n{}", &NETWORK[..begin], &NETWORK[end..])
 }
 
-/// The error of a table beside the good network, with the path of the temporary folder removed.
+/// The error of a table next to the good network, with the path of the temporary folder removed.
 fn error_of_table(folder: &std::path::Path, table: &[u8]) -> Option<Error> {
     std::fs::write(folder.join("demand.csv"), table).expect("a free folder");
     std::fs::write(folder.join("net.toml"), hourly("table = \"demand.csv\""))

@@ -187,7 +187,7 @@ fn a_vertiport_out_of_reach_is_named_with_the_likely_cause() {
     insta::assert_snapshot!(warnings((44.9, -74.1)).join("\n"));
     let network = at([near[0], near[1], (40.9, 74.1)]);
     let day = network.draw(DaySeed::comparison(1).expect("a small seed"));
-    assert_eq!(day.warnings()[0], network.warnings()[0], "a day of it says the same");
+    assert_eq!(day.warnings()[0], network.warnings()[0], "a day of it has the same warning");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Demand by hour and pair: rows in the network file mean the same as a table beside it, and a
+//! Demand by hour and pair: rows in the network file mean the same as a table in its folder, and a
 //! network that was read with a table no longer needs it.
 
 use std::fs;
@@ -88,7 +88,7 @@ fn other_numbers_in_the_table_are_another_network() {
 }
 
 #[test]
-fn what_is_wrong_with_a_table_is_not_told_of_the_network() {
+fn an_error_of_a_table_does_not_name_the_network() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("net.toml");
     fs::write(&path, network("table = \"missing.csv\"")).expect("a free folder");

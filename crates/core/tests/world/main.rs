@@ -1,4 +1,4 @@
-//! What the files of the project promise: reading, checking, drawing and writing networks and days.
+//! The guarantees of the project's files: reading, checking, drawing and writing networks and days.
 
 mod any_input;
 mod beyond;

@@ -1,4 +1,4 @@
-//! The mean of the draws is the mean asked for, however thin demand is, for every demand model but
+//! The mean of the draws is the given mean, even where demand is thin, for every demand model but
 //! Eq. 1, which rounds as in the paper.
 
 use vertifleet_core::{DaySeed, Matrix, Network, Scenario, VertiportIx};

@@ -64,7 +64,7 @@ fn what_no_file_can_be_written_to_is_found_beforehand() {
 }
 
 #[test]
-fn an_output_that_is_an_input_is_refused_by_whatever_name_and_also_by_force() {
+fn an_output_that_is_an_input_is_refused_under_any_name_and_also_by_force() {
     let folder = folder();
     let input = folder.path().join("input");
     fs::write(&input, SMALL).expect("a file");
@@ -109,7 +109,7 @@ fn files(text: &str) -> Vec<(String, Vec<u8>)> {
 }
 
 #[test]
-fn a_folder_is_replaced_as_a_whole_and_leaves_nothing_beside_it() {
+fn a_folder_is_replaced_as_a_whole_and_leaves_nothing_next_to_it() {
     let folder = folder();
     let target = folder.path().join("above/book");
     replace_folder(&target, &NOTEBOOK, false, &files("one")).expect("a free name");
@@ -121,7 +121,7 @@ fn a_folder_is_replaced_as_a_whole_and_leaves_nothing_beside_it() {
 }
 
 #[test]
-fn a_folder_of_others_is_kept_beside_even_by_force() {
+fn a_folder_of_others_is_kept_even_by_force() {
     let folder = folder();
     let target = folder.path().join("book");
     fs::create_dir(&target).expect("a free name");

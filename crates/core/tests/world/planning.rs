@@ -1,5 +1,5 @@
-//! What planners change: fares to which passengers respond, costs of stands, corridors that are not
-//! straight, and days that stay comparable under such changes.
+//! Changes that planners make: fares to which passengers respond, costs of stands, corridors that
+//! are not straight, and days that stay comparable under such changes.
 
 use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
 use serde_json::{Value, json};
@@ -62,14 +62,14 @@ fn on_the_same_day_a_higher_fare_never_has_more_passengers() {
     }
 }
 
-/// Sees that no pair has more passengers in `one` than in `other`.
+/// Checks that no pair has more passengers in `one` than in `other`.
 fn assert_none_more(one: &[Matrix<u32>], other: &[Matrix<u32>]) {
     for (one, other) in one.iter().zip(other) {
         assert!(one.cells().iter().zip(other.cells()).all(|(one, other)| one <= other));
     }
 }
 
-/// The tables of the two networks' mean demand are so many times each other.
+/// The factor between the tables of the two networks' mean demand.
 fn assert_mean_is(now: &Network, before: &Network, factor: impl Fn(f64) -> f64) {
     let fares = |network: &Network| network.draw(seed(1)).fare_usd.in_period(0).cells().to_vec();
     let ratios: Vec<f64> =
@@ -96,7 +96,7 @@ fn demand_responds_whichever_member_changes_the_fares() {
         let dear = changed(&elastic, &changes);
         assert!(total(&dear) < total(&elastic), "{changes}");
         assert_mean_is(&dear, &elastic, response);
-        // A change of what was changed keeps the same reference.
+        // A change of a changed network keeps the same reference.
         let again = changed(&dear, &json!({"tariffs.fare_level": 1.1, "fleet.0.count": 41}));
         assert_mean_is(&again, &elastic, response);
     }
@@ -145,7 +145,7 @@ fn the_mean_of_the_draws_follows_the_market() {
 }
 
 #[test]
-fn a_reference_says_at_which_fares_the_demand_was_measured() {
+fn a_reference_states_at_which_fares_the_demand_was_measured() {
     let plain = network(NEW_YORK);
     let market = changed(
         &plain,
@@ -216,7 +216,7 @@ fn a_corridor_may_be_longer_than_the_straight_line_and_no_shorter() {
 }
 
 #[test]
-fn stands_and_chargers_cost_what_their_vertiport_or_the_tariffs_say() {
+fn stands_and_chargers_have_the_cost_of_their_vertiport_or_of_the_tariffs() {
     let costs = json!({
         "tariffs.stand_cost_usd_per_day": 50,
         "tariffs.charger_cost_usd_per_day": 200,
@@ -237,7 +237,7 @@ fn a_change_of_stands_is_undone_by_its_reverse() {
     let more = changed(&paper, &json!({"vertiports.*.stands": 9}));
     assert_eq!(starts(&more.draw(seed(5))), starts(&paper.draw(seed(5))));
     let text = Network::from_toml(more.toml(), "again").expect("a changed network");
-    assert_eq!(text.draw(seed(5)), more.draw(seed(5)), "the text says all");
+    assert_eq!(text.draw(seed(5)), more.draw(seed(5)), "the text is complete");
     let back = changed(&more, &json!({"vertiports.*.stands": 6}));
     assert_eq!(back.draw(seed(5)), paper.draw(seed(5)));
     let other_fares = changed(&paper, &json!({"tariffs.fare_level": 2}));

@@ -1,4 +1,4 @@
-//! The networks of cities are what their sources say: positions are those of OurAirports
+//! The networks of cities agree with their sources: positions are those of OurAirports
 //! (`networks/sources`), and every pair with demand is within range.
 
 use std::collections::BTreeMap;

@@ -61,7 +61,7 @@ impl Archive {
     }
 }
 
-/// What all files have in common, whichever system writes the archive and whenever that is.
+/// The attributes that all files share, independent of the system and of the time of writing.
 fn options() -> SimpleFileOptions {
     SimpleFileOptions::default()
         .system(System::Unix)

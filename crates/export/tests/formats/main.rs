@@ -1,5 +1,5 @@
-//! What the exports of a day promise: every flight of the trace, in a form that the readers of each
-//! format accept.
+//! The guarantees of the exports of a day: every flight of the trace, in a form that the readers of
+//! each format accept.
 
 mod calendars;
 mod days;

@@ -7,15 +7,15 @@ use vertifleet_sim::TraceRow;
 use crate::days::{calendar, tiny};
 
 /// The code and the message of an error.
-fn said(error: &Error) -> String {
+fn message(error: &Error) -> String {
     format!("{}: {error}", error.code())
 }
 
-/// What is said of the tiny day after a change of its second row.
+/// The error of the tiny day after a change of its second row.
 fn refused(change: impl FnOnce(&mut TraceRow)) -> String {
     let mut played = tiny();
     change(&mut played.rows[1]);
-    said(&Flown::new(&played.day, &played.rows).expect_err("a wrong row"))
+    message(&Flown::new(&played.day, &played.rows).expect_err("a wrong row"))
 }
 
 #[test]
@@ -32,7 +32,7 @@ fn maps_and_feeds_need_latitude_and_longitude_and_the_other_formats_do_not() {
         let expected = format!(
             "V721: day \"tiny\": vertiport \"Zürich\" must have latitude and longitude for {format}, found a position in miles only"
         );
-        assert_eq!(said(&error), expected);
+        assert_eq!(message(&error), expected);
         assert!(error.hint().is_some());
     }
     assert!(csv(&flown, None).ends_with(b",40.7033,-74.017\n"));
@@ -44,12 +44,12 @@ fn maps_and_feeds_need_latitude_and_longitude_and_the_other_formats_do_not() {
 fn a_date_and_a_zone_have_to_exist() {
     let date = Calendar::new("2026-02-30", "UTC").expect_err("no date");
     assert_eq!(
-        said(&date),
+        message(&date),
         "V722: date must be a date from 1970-01-01 to 2199-12-31, written as YYYY-MM-DD, found \"2026-02-30\""
     );
     let zone = Calendar::new("2026-11-24", "America/Gotham").expect_err("no zone");
     assert_eq!(
-        said(&zone),
+        message(&zone),
         "V723: time zone must be a name of the IANA time zone database, found \"America/Gotham\""
     );
 }

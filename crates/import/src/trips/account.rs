@@ -1,4 +1,4 @@
-//! What became of every trip record.
+//! An account of all trip records: those that were kept, and those that were dropped.
 
 use std::fmt::{self, Write};
 
@@ -57,7 +57,7 @@ pub struct DroppedRow {
     pub file: String,
     /// Its line in a CSV file, or its row in a Parquet file, from 1.
     pub place: String,
-    /// What it says, cut short if it is long.
+    /// Its text, cut short if it is long.
     pub row: String,
 }
 

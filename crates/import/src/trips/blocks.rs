@@ -1,9 +1,9 @@
 //! Trip records of a CSV file, in blocks of whole lines.
 //!
 //! One thread reads blocks while the others take records from the blocks before. A bounded queue
-//! lies between them, so that a few blocks are in memory at once, however long the file is. A line
-//! is a row: a row that is malformed, for example by a quote that is never closed, spoils no other
-//! row.
+//! lies between them, so that only a few blocks are in memory at once, for files of any length. A
+//! line is a row: a row that is malformed, for example by a quote that is never closed, spoils no
+//! other row.
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
@@ -39,7 +39,7 @@ struct Block {
     begin: u64,
 }
 
-/// Adds all records of a file, which is so many files after the first.
+/// Adds all records of a file; `number` is its position among the files.
 pub(super) fn read(path: &Path, number: usize, reading: &Reading<'_>) -> Result<(), Error> {
     let meter = |file| Metered { file, progress: &reading.progress };
     read_through(path, meter, |file| {

@@ -263,12 +263,12 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// An error that says what is missing; `like` is the name to which similar ones are looked for.
+    /// The error that a column is missing; `like` is the name to which similar ones are looked for.
     fn missing(&self, what: &str, like: &str, remedy: Option<&str>) -> Error {
         self.header.missing(&Missing { column: what, like: &[like], used: &self.used, remedy })
     }
 }
 
-/// What to do where columns have names that are not known.
+/// The remedy for columns of unknown names.
 const NAME_THEM: &str =
     "--trip-columns names what is called otherwise, as pickup_time=began,passengers=riders";

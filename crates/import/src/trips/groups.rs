@@ -116,7 +116,7 @@ impl Part<'_> {
         })
     }
 
-    /// The bytes that so many rows stand for.
+    /// The bytes that this number of rows stands for.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

@@ -1,12 +1,12 @@
-//! What is noticed while trip records are added, beside their sums: the first row that was dropped
-//! for each reason, and signs that records do not mean what they say.
+//! Observations made while trip records are added, besides their sums: the first row that was
+//! dropped for each reason, and signs that records are wrong.
 
 use super::tally::{REASONS, Record};
 use crate::cell::Cell;
 use crate::cell::without_controls;
 use crate::error::shortened;
 
-/// What a row says, for a person who looks it up.
+/// The text of a row, for a person who looks it up.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum RowText<'row> {
     Line(&'row [u8]),
@@ -41,7 +41,7 @@ pub(super) struct Position {
     pub(super) at: u64,
 }
 
-/// Signs that records do not mean what they say.
+/// Signs that records are wrong.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Signs {
     /// Records whose time is an instant.

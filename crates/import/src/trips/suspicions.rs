@@ -1,4 +1,4 @@
-//! What trip records say and hardly mean: the warnings of an import of trips.
+//! The warnings of an import of trips: signs that the records are not what they seem.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -14,12 +14,12 @@ use crate::trip_times::FORMS;
 
 /// A date with fewer records than this share of the usual number is an error of a clock rather than
 /// a day.
-const HARDLY_ANY: f64 = 0.01;
+const STRAY_SHARE: f64 = 0.01;
 /// Bytes that are compared at once.
 const BLOCK: usize = 64 << 10;
 
-/// The warnings of these records. `converts` says whether instants are converted to a time zone,
-/// and `overlooked` are columns that are not read and may hold the passengers.
+/// The warnings of these records. `converts` is whether instants are converted to a time zone, and
+/// `overlooked` are columns that are not read and may hold the passengers.
 pub(super) fn warnings(
     trips: &Trips<'_>,
     tally: &Tally,
@@ -68,11 +68,11 @@ fn are_same(one: &Path, other: &Path) -> std::io::Result<bool> {
         return Ok(false);
     }
     let (mut one, mut other) = (File::open(one)?, File::open(other)?);
-    let (mut block, mut beside) = (vec![0; BLOCK], vec![0; BLOCK]);
+    let (mut block, mut other_block) = (vec![0; BLOCK], vec![0; BLOCK]);
     loop {
         let read = one.read(&mut block)?;
-        other.read_exact(&mut beside[..read])?;
-        if read == 0 || block[..read] != beside[..read] {
+        other.read_exact(&mut other_block[..read])?;
+        if read == 0 || block[..read] != other_block[..read] {
             return Ok(read == 0);
         }
     }
@@ -82,7 +82,7 @@ fn unreadable(signs: &Signs, account: &TripAccount) -> Option<String> {
     let (_, first) = signs.unreadable.as_ref()?;
     Some(format!(
         "the times of {} of {} rows cannot be read, the first of them {first:?}: read are times as {FORMS}; \
-         --time-format says how others are written",
+         --time-format reads other forms",
         account.no_time, account.rows
     ))
 }
@@ -122,7 +122,7 @@ fn stray_dates(dates: &BTreeMap<Date, u64>) -> Option<String> {
     let mut counts: Vec<u64> = dates.values().copied().collect();
     counts.sort_unstable();
     let usual = *counts.get(counts.len() / 2)? as f64;
-    let is_stray = |(_, records): &(&Date, &u64)| (**records as f64) < HARDLY_ANY * usual;
+    let is_stray = |(_, records): &(&Date, &u64)| (**records as f64) < STRAY_SHARE * usual;
     let stray: Vec<String> = dates
         .iter()
         .filter(is_stray)

@@ -2,7 +2,7 @@
 //!
 //! Sums are whole multiples of 2^-30 passengers. Whole numbers add up to the same sum in any order,
 //! so the demand does not depend on how files are cut into blocks, nor on which thread reads which
-//! block, nor on the kind of file. What is rounded off each record is below a billionth of a
+//! block, nor on the kind of file. The rounding error of each record is below a billionth of a
 //! passenger.
 
 use std::collections::BTreeMap;
@@ -25,7 +25,7 @@ const UNITS: f64 = (1_u64 << 30) as f64;
 const MOST_PASSENGERS: f64 = 100.0;
 const HOUR_S: u32 = 3600;
 
-/// What could be read of a trip record.
+/// The readable values of a trip record.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Record<'row> {
     pub(super) position: Position,
@@ -338,7 +338,7 @@ impl Rules {
         })
     }
 
-    /// The share of passengers that is left after so many miles to and from vertiports.
+    /// The share of passengers that is left after this number of miles to and from vertiports.
     #[inline]
     fn share(&self, distance_mi: f64) -> f64 {
         self.decay_mi.map_or(1.0, |decay_mi| libm::exp(-distance_mi / decay_mi))

@@ -55,8 +55,7 @@ impl Random {
     }
 }
 
-/// So many trips around these places (latitude and longitude), in the order of their times within a
-/// month.
+/// Trips around these places (latitude and longitude), in the order of their times within a month.
 pub(crate) fn trips(around: &[(f64, f64)], count: u64, seed: u64) -> impl Iterator<Item = Trip> {
     let mut random = Random(seed);
     let all_s = DAYS * 86_400;
@@ -111,7 +110,8 @@ pub(crate) fn write_csv(mut file: impl Write, trips: impl Iterator<Item = Trip>)
 /// A column of numbers: whether values may be missing, and the value of a trip.
 type NumberColumn = (bool, fn(&Trip) -> f64);
 
-/// Writes the same columns that are read, and one that is not, in row groups of so many rows.
+/// Writes the same columns that are read, and one that is not, in row groups of a given number of
+/// rows.
 pub(crate) fn write_parquet(
     file: impl Write + Send,
     trips: impl Iterator<Item = Trip>,

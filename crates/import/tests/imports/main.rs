@@ -1,5 +1,5 @@
-//! What an import promises: networks from every kind of file, the same on every machine, and errors
-//! that say what to do.
+//! The guarantees of an import: networks from every kind of file, the same on every machine, and
+//! errors that name the remedy.
 
 mod any_input;
 mod errors;

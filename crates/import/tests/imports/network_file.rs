@@ -1,4 +1,4 @@
-//! Imports of every kind of file, and the network file that comes out.
+//! Imports of every kind of file, and the resulting network file.
 
 use crate::planner::{Folder, VERTIPORTS, line, map, new_york, point, request, run, run_table};
 use vertifleet_core::{Network, Time, VertiportIx};
@@ -83,14 +83,14 @@ fn points_of_a_map_and_rows_of_a_table_give_the_same_vertiports() {
     let demand = folder.path("demand.csv");
     let from_map = run(&request(&base, &places, Demand::Table(&demand))).expect("a network");
     assert_eq!(numbers(&table.network), numbers(&from_map.network));
-    // The kind of a file whose name does not say it is seen from its text.
+    // The kind of a file whose name does not show it is recognised by its text.
     let unnamed = folder.file("places", map(&features));
     let unnamed = run(&request(&base, &unnamed, Demand::Table(&demand))).expect("a network");
     assert_eq!(numbers(&table.network), numbers(&unnamed.network));
 }
 
 #[test]
-fn stands_that_no_file_gives_are_assumed_and_the_file_says_so() {
+fn stands_that_no_file_gives_are_assumed_with_a_comment() {
     let folder = Folder::new();
     let rows = (0..10).map(|n| format!("V{n},40.{n},-74\n")).collect::<Vec<_>>().concat();
     folder.file("vertiports.csv", format!("id,latitude,longitude\n{rows}"));
@@ -114,8 +114,9 @@ fn a_fleet_of_another_size_and_a_time_zone_are_taken_and_the_file_says_so() {
         (request.aircraft, request.time_zone) = (Some(7), Some("America/New_York"));
         let Imported { network, toml, .. } = run(&request).expect("a network");
         assert_eq!((network.fleet_size(), network.time_zone()), (7, Some("America/New_York")));
-        let said = format!("# The import was asked for 7 aircraft; {fleet}, and each type keeps");
-        assert!(toml.contains(&said) && toml.contains(entry), "{toml}");
+        let comment =
+            format!("# The import was asked for 7 aircraft; {fleet}, and each type keeps");
+        assert!(toml.contains(&comment) && toml.contains(entry), "{toml}");
         assert!(
             toml.contains("# The time zone that the import was given.\ntime_zone = "),
             "{toml}"

@@ -1,4 +1,5 @@
-//! The types that columns of Parquet files may have: all that say the same give the same network.
+//! The types that columns of Parquet files may have: equal values of different types give the same
+//! network.
 
 use std::path::PathBuf;
 use std::sync::Arc;

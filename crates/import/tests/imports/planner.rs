@@ -84,7 +84,7 @@ pub(crate) fn new_york() -> Network {
     Network::shipped("new-york").expect("it is shipped")
 }
 
-/// Imports without anybody who watches.
+/// Imports without a report of progress.
 pub(crate) fn run(request: &Request<'_>) -> Result<Imported, Error> {
     import(request, &Stop::default(), &|_| ())
 }

@@ -1,5 +1,5 @@
-//! Files as planners really have them: what can be read is read, and what cannot is refused or
-//! warned of by name.
+//! Files as planners really have them: readable parts are read, and the others are refused or named
+//! in a warning.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -309,9 +309,9 @@ fn times_with_a_zone_are_converted_to_that_of_the_network_or_warned_of() {
     assert!(imported.warnings.is_empty());
     let at_seven: f64 = imported.network.mean_demand()[1].cells().iter().sum();
     assert_eq!(at_seven, 3.0);
-    let said = of_records(&rows, |_| ());
+    let found = of_records(&rows, |_| ());
     assert_eq!(
-        said,
+        found,
         [
             "V741 the trip records: the times of 2 rows have a time zone, and are taken as their clocks show them: --time-zone \
           converts them to that of the network"
@@ -332,7 +332,7 @@ fn times_that_cannot_be_read_show_the_first_of_them_and_a_format_reads_them() {
         [
             "V741 the trip records: the times of 3 of 4 rows cannot be read, the first of them \"01/06/2015 07:30\": read are times \
           as 2015-06-01 07:08:09, also with T in place of the space, without seconds, or with Z, UTC or an offset at its end; \
-          --time-format says how others are written"
+          --time-format reads other forms"
         ]
     );
     let folder = Folder::new();

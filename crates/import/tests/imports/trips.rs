@@ -148,7 +148,7 @@ fn files_in_any_order_and_of_both_kinds_add_up() {
     assert_eq!(both(vec![&csv, &parquet]).network.mean_demand(), two.network.mean_demand());
 }
 
-/// Records of one kind each, from JRB to JFK at 7:30 where nothing else is said.
+/// Records of one kind each, from JRB to JFK at 7:30 unless stated otherwise.
 #[test]
 fn every_record_is_kept_or_counted_with_the_first_reason() {
     let folder = Folder::new();
@@ -257,7 +257,7 @@ fn zones_are_found_by_number_or_name_at_their_middles() {
             r#"{{"type":"Feature","properties":{{{zone}}},"geometry":{{"type":"Polygon","coordinates":[{rings}]}}}}"#
         )
     };
-    // The first zone has two parts, whose middle together is JRB, and a name beside its number, as
+    // The first zone has two parts, whose middle together is JRB, and a name next to its number, as
     // in New York.
     let zones = folder.file(
         "zones.geojson",

@@ -1,4 +1,4 @@
-//! What files may say but hardly mean: a network comes out, and a warning.
+//! Files with contents that are probably unintended: the result is a network and a warning.
 
 use crate::planner::{Folder, run_table};
 
@@ -62,7 +62,7 @@ fn vertiports_at_the_same_place_and_near_a_pole_bring_warnings() {
         [r#"V719 vertiports.csv: the vertiports "A" and "B" are at the same place"#]
     );
     let exchanged = "id,latitude,longitude,stands\nA,-74,40.7,20\nB,-74.1,40.6,20\n";
-    let said = warnings(exchanged, &table);
-    assert_eq!(said.len(), 1);
-    assert!(said[0].contains("latitude and longitude may be exchanged"), "{said:?}");
+    let found = warnings(exchanged, &table);
+    assert_eq!(found.len(), 1);
+    assert!(found[0].contains("latitude and longitude may be exchanged"), "{found:?}");
 }

@@ -1,6 +1,6 @@
-//! What the fleet would do at given prices: every aircraft takes the itinerary through the day that
-//! is worth most to it. Where more or less is then asked for than is available, prices should rise
-//! or fall.
+//! The best itineraries of the fleet at given prices: every aircraft takes the itinerary through
+//! the day that is worth most to it. Where the fleet then asks for more or less than is available,
+//! prices should rise or fall.
 
 use super::certificate::{Certificate, earnings};
 use super::itinerary::Itinerary;
@@ -79,7 +79,7 @@ impl BestItineraries<'_> {
         }
     }
 
-    /// What an aircraft pays for knowing the delays of its slot when it decides.
+    /// The payment of an aircraft for knowing the delays of its slot when it decides.
     fn payment(&self, ready: Ready) -> i64 {
         let penalty = self.day.penalty.as_ref().filter(|_| ready.owes);
         penalty.map_or(0, |penalty| {
@@ -87,7 +87,7 @@ impl BestItineraries<'_> {
         })
     }
 
-    /// An aircraft that decided when it was `ready`, so many seconds later.
+    /// An aircraft that decided when it was `ready`, `seconds` later.
     fn goes_on(&self, ready: Ready, at: usize, seconds: u32) -> Ready {
         let second = ready.second + seconds;
         let penalty = self.day.penalty.as_ref();

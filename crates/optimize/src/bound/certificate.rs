@@ -274,13 +274,13 @@ fn wait_freely(worths: &mut [i64], mut later: i64) {
     }
 }
 
-/// What a flight earns: its price less what it costs.
+/// The earnings of a flight: its price less its cost.
 #[inline]
 pub(super) fn earnings(prices: &Prices, flight: &Flight) -> i64 {
     prices.flight[flight.sold_at as usize] - flight.cost
 }
 
-/// What is given back: the price of all stands, and the surplus of all passengers.
+/// The amount that is given back: the price of all stands, and the surplus of all passengers.
 fn dual_constant(day: &TimeExpandedDay, prices: &Prices) -> i128 {
     let stands = day.stands.iter().zip(&prices.stand);
     let stands = stands.map(|(&count, &price)| i128::from(count) * i128::from(price));

@@ -79,8 +79,8 @@ impl Sum for DesignBound {
 
 impl Bound {
     /// The bound of all designs that the prices of this bound prove. `scenario` is the day of the
-    /// bound; `may_fail` says whether aircraft of other designs may have outages, as they may on
-    /// any day of a network that has them.
+    /// bound; `may_fail` is whether aircraft of other designs may have outages, as they may on any
+    /// day of a network that has them.
     ///
     /// # Errors
     /// [`Error::TooManyFlights`] if the day with aircraft of every type is too large for the
@@ -114,8 +114,8 @@ impl Bound {
 }
 
 /// The day with one aircraft of each type. Where aircraft may fail, each of them has an outage,
-/// whatever happens on the day itself: other fleets may have theirs anywhere, and an aircraft with
-/// an outage is worth no less (`time_expanded_day.rs`).
+/// with or without one on the day itself: other fleets may have theirs anywhere, and an aircraft
+/// with an outage is worth no less (`time_expanded_day.rs`).
 fn one_of_each_type(scenario: &Scenario, may_fail: bool) -> Scenario {
     let mut day = scenario.clone().into_day();
     let types = day.aircraft_types.len();

@@ -8,7 +8,7 @@ use super::time_expanded_day::Flight;
 /// An itinerary through the day for one aircraft, or the flights that some passengers buy.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Itinerary {
-    /// What it earns apart from the prices of flights and stands, micro-dollars: of an aircraft,
+    /// The earnings apart from the prices of flights and stands, micro-dollars: of an aircraft,
     /// minus the cost of its flights; of passengers, what they bring.
     pub(super) earnings: f64,
     /// The stays of the aircraft, one after the other, each as the slice before which it ends and
@@ -20,7 +20,8 @@ pub(super) struct Itinerary {
 }
 
 impl Itinerary {
-    /// What the passengers of a part of the market do at these prices. They take no stands.
+    /// The purchases of the passengers of a part of the market at these prices. They take no
+    /// stands.
     pub(super) fn of_buyers(market: &Market, block: usize, prices: &[i64]) -> Self {
         let (surplus, bought) = market.buy(block, prices, None);
         let paid = |&(at, number): &(u32, f64)| number * prices[at as usize] as f64;

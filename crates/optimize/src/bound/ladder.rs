@@ -2,7 +2,7 @@
 //! one.
 //!
 //! The path to the requested slices passes through all coarser ones (`CUTS`) and does the same work
-//! in each, whatever was requested. The result is the best bound that was proven on the path, so a
+//! in each for every request. The result is the best bound that was proven on the path, so a
 //! shorter step never gives a looser bound. In each cut, prices are first searched for on a clock
 //! that ticks once a minute, where a step takes a fraction of the time and proves nothing, and then
 //! to the second, where every step proves a bound.
@@ -64,7 +64,7 @@ pub(crate) struct Relaxed<'a> {
     pub(crate) scenario: &'a Scenario,
     /// When aircraft decide first; those past its end are ready from the start.
     pub(crate) ready: &'a [Time],
-    /// What aircraft pay for knowing delays, if the bound is to be one without foresight.
+    /// The payments of aircraft for knowing delays, for a bound without foresight.
     pub(super) penalty: Option<&'a Penalty>,
 }
 

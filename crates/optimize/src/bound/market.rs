@@ -4,7 +4,7 @@
 //! In the relaxation an aircraft sells its flights, each at a price that depends on the demand
 //! period, the pair of vertiports and the number of seats. The passengers of the pair buy whole
 //! flights, as many as leave them the most after they have paid: their *surplus*. Five passengers
-//! cannot buy a flight and a quarter, so the surplus is worked out over whole numbers of flights,
+//! cannot buy a flight and a quarter, so the surplus is computed over whole numbers of flights,
 //! exactly. docs/src/concepts/bound.md has the proof.
 
 mod buying;
@@ -51,8 +51,8 @@ pub(super) type Bought = Vec<(u32, f64)>;
 pub(super) struct Alike {
     /// Number of flights that leave full.
     pub(super) full: i64,
-    /// What a full flight brings, and what the last flight brings that does not leave full, or 0
-    /// without one; micro-dollars.
+    /// The amount that a full flight brings, and that of the last flight if it does not leave full,
+    /// or 0; micro-dollars.
     pub(super) brings: i64,
     pub(super) last_brings: i64,
 }
@@ -89,7 +89,7 @@ impl Market {
         self.is_offered.len()
     }
 
-    /// The position of the price of flights of a cell with so many seats.
+    /// The position of the price of flights of a cell with this number of seats.
     pub(super) fn position(&self, cell: usize, part: Part, seats: u16) -> usize {
         let class = self.seats.partition_point(|&fewer| fewer < seats);
         self.first_of(cell, part) + class
@@ -142,7 +142,7 @@ impl Market {
         self.has_one_price_a_cell().then(|| self.alike_for(position, self.passengers[position]))
     }
 
-    /// The same if so many passengers want to fly.
+    /// The same if `passengers` want to fly.
     fn alike_for(&self, cell: usize, passengers: u32) -> Alike {
         let (seats, margin) = (u32::from(self.seats[0]), self.margin[cell]);
         Alike {

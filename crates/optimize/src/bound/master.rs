@@ -46,7 +46,7 @@ struct Buyers {
     /// The highest price, which is what a full flight brings.
     most: f64,
     full: f64,
-    /// What the last flight brings; 0 without one.
+    /// The amount that the last flight brings; 0 without one.
     last: f64,
     pace: f64,
 }
@@ -82,7 +82,7 @@ impl Buyers {
         (without_last + a_flight).clamp(0.0, self.last)
     }
 
-    /// What the buyers have left at a price.
+    /// The surplus of the buyers at a price.
     fn surplus(self, price: f64) -> f64 {
         self.full * (self.most - price) + (self.last - price).max(0.0)
     }
@@ -139,7 +139,7 @@ pub(super) struct Master<'a> {
     flight_excess: Vec<f64>,
     stand: Vec<f64>,
     flight: Vec<f64>,
-    /// What else is known of each price of a flight.
+    /// Other facts on each price of a flight.
     buyers: Vec<Buyers>,
     /// Price of a stand from the first slice until each slice begins and the last one ends, by
     /// vertiport, then slice.
@@ -424,7 +424,7 @@ impl<'a> Master<'a> {
     }
 
     /// The model's estimate of the bound that its prices prove, micro-dollars. It is never more
-    /// than the true one, but for rounding.
+    /// than the true one, apart from rounding.
     pub(super) fn value(&self) -> f64 {
         let fleet = self.groups.iter().filter(|group| group.count > 0.0).map(|group| {
             let worths = group.itineraries.iter().map(|known| self.worth(&known.itinerary));

@@ -1,8 +1,8 @@
-//! The penalty for knowing the future: what an aircraft pays when it comes into a slot of take-off
-//! delays whose delays it knows.
+//! The penalty for knowing the future: the payment of an aircraft that comes into a slot of
+//! take-off delays and knows these delays.
 //!
-//! A bound of a day that is known in full is above what anyone can earn who learns of delays only
-//! as they come. A penalty takes back what that knowledge is worth (D. Brown, J. Smith, P. Sun,
+//! A bound of a day that is known in full is above the profit of any policy that learns of delays
+//! only as they come. A penalty takes back the worth of that knowledge (D. Brown, J. Smith, P. Sun,
 //! *Information relaxations and duality in stochastic dynamic programs*, Operations Research 58,
 //! 2010). With any function v of an aircraft's place and time and of the delay there, an aircraft
 //! that will decide next at vertiport j at time t, in a slot that it did not decide in before, pays
@@ -21,7 +21,7 @@ pub(super) mod worths;
 
 use vertifleet_core::TypeIx;
 
-/// What aircraft pay when they come into a slot, on the clock of a time-expanded day.
+/// The payments of aircraft that come into a slot, on the clock of a time-expanded day.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Penalty {
     /// The aircraft types in the order of the payments.

@@ -68,7 +68,7 @@ fn any_penalty(expanded: &TimeExpandedDay, delays: &TakeoffDelays, seed: u64) ->
     Penalty::from_payments(expanded, delays, payment)
 }
 
-/// What an aircraft pays for knowing delays, when it decides first in a slot.
+/// The payment of an aircraft for knowing delays, when it decides first in a slot.
 fn payments(expanded: &TimeExpandedDay, layer: usize, trace: &Trace, aircraft: AircraftIx) -> i64 {
     let Some(penalty) = &expanded.penalty else { return 0 };
     let (mut paid, mut past_slot) = (0, 0);

@@ -1,4 +1,4 @@
-//! What is left of a day while its aircraft are planned one after another, and its prices.
+//! The rest of a day while its aircraft are planned one after another, and its prices.
 //!
 //! The prices come from the same search as those of a bound, on the coarse clock, in slices as fine
 //! as time allows. They prove nothing. Once an aircraft has been planned, its stands and passengers
@@ -27,7 +27,7 @@ pub(crate) struct Way {
     pub(crate) flights: Vec<(u32, VertiportIx)>,
 }
 
-/// What is left of a day, and its prices.
+/// The rest of a day, and its prices.
 #[derive(Debug, Clone)]
 pub(crate) struct Rest {
     day: TimeExpandedDay,
@@ -183,8 +183,8 @@ impl Rest {
         })
     }
 
-    /// What passengers pay for a flight of a type in a cell, before or after those have left who
-    /// waited for it; dollars.
+    /// The price that passengers pay for a flight of a type in a cell, before or after those have
+    /// left who waited for it; dollars.
     pub(crate) fn flights_usd(&self, seats: u16, is_early: bool) -> Vec<f64> {
         let part = if is_early { Part::Early } else { Part::Late };
         let market = &self.day.market;

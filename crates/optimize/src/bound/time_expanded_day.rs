@@ -2,8 +2,8 @@
 //! holds, limits, and the market for flights.
 //!
 //! Aircraft of one type are alike, so there is one layer for each type. Aircraft that have an
-//! outage today form a layer of their own, in which outages are dropped and waiting is free. The
-//! cost of a flight depends on the slice in which it begins, never on the second within it.
+//! outage today form a separate layer, in which outages are dropped and waiting is free. The cost
+//! of a flight depends on the slice in which it begins, never on the second within it.
 
 use std::collections::BTreeMap;
 
@@ -76,7 +76,7 @@ pub(super) struct TimeExpandedDay {
     /// The shortest time from a take-off to the next one, or the duration of a hold if that is
     /// shorter; seconds, at least 1.
     pub(super) shortest_s: u32,
-    /// What aircraft pay for knowing delays, if the bound is to be one without foresight.
+    /// The payments of aircraft for knowing delays, for a bound without foresight.
     pub(super) penalty: Option<Penalty>,
     flights: Vec<Flight>,
     /// Position in `flights` of the first flight from each vertiport, by slice, layer, vertiport.
@@ -290,8 +290,8 @@ fn pairs(legs: &Legs, layers: &[Layer], size: usize) -> usize {
     layers.iter().map(within_range).sum()
 }
 
-/// What the fleet, the stands and the chargers cost whatever is decided, rounded down for each, and
-/// 0 where they cost nothing, which rounding down would make negative.
+/// The fixed cost of the fleet, the stands and the chargers. It is rounded down for each, but to no
+/// less than 0, because rounding down would make a cost of nothing negative.
 fn fixed_cost(scenario: &Scenario) -> i64 {
     let each = |cost_usd: f64| money::down(cost_usd).max(0);
     let fleet = i64::try_from(scenario.aircraft.len()).expect("at most 10,000 aircraft");

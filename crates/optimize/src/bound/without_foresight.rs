@@ -1,8 +1,8 @@
 //! The bound without foresight: dollars that no policy earns more than on average if it learns of
 //! take-off delays only as they come.
 //!
-//! Each day is bounded with a [`Penalty`] for knowing its delays. What else a day has, its demand,
-//! closures and outages, it knows from the start, as [`upper_bound`](super::upper_bound) does.
+//! Each day is bounded with a [`Penalty`] for knowing its delays. Demand, closures and outages are
+//! known from the start, as in [`upper_bound`](super::upper_bound).
 
 use vertifleet_core::{Network, Scenario, Stop, TakeoffDelays};
 
@@ -17,9 +17,9 @@ use crate::Error;
 
 /// The bound of a day that was drawn from a network, with a penalty for knowing its take-off
 /// delays. The mean of these bounds over days that are drawn is at least the mean profit of any
-/// policy that does not know the delays of a slot before the slot begins; the bound of one day says
-/// nothing about that day alone. It is that of [`upper_bound`](super::upper_bound) where the
-/// network has no delays. `None` soon after `stopped` is requested.
+/// policy that does not know the delays of a slot before the slot begins; the bound of one day is
+/// no bound on that day alone. It is that of [`upper_bound`](super::upper_bound) where the network
+/// has no delays. `None` soon after `stopped` is requested.
 ///
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step, and [`Error::OtherNetwork`] if
@@ -78,8 +78,8 @@ fn can_be_drawn(delays: &TakeoffDelays, probabilities: &[Vec<f64>]) -> bool {
 }
 
 /// The day as it is expected when it begins: the demand of the forecast, every take-off as late as
-/// on the mean, only the closures that are announced, and no outages. What is expected of one slot
-/// is expected of all, so nothing that the day draws shows in it.
+/// on the mean, only the closures that are announced, and no outages. All slots have the same
+/// expectation, so it does not depend on the draws of the day.
 fn expected_day(
     scenario: &Scenario,
     delays: &TakeoffDelays,

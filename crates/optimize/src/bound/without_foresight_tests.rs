@@ -243,7 +243,7 @@ fn the_penalty_takes_back_what_knowing_the_coins_is_worth() {
     let (without_usd, with_usd) = world.bounds_usd(Step::from_minutes(15).expect("a step"));
     assert!(
         (with_usd - 110.0).abs() < 0.01,
-        "who knows the coins flies to the better place: {with_usd}"
+        "a policy that knows the coins flies to the better place: {with_usd}"
     );
     assert!((100.0..100.01).contains(&without_usd), "{without_usd}");
 }

@@ -1,4 +1,5 @@
-//! Vertiports with chargers beside their stands: when their places are taken.
+//! Vertiports that have chargers and also waiting stands, which are stands without a charger: when
+//! their places are taken.
 //!
 //! A flight needs a charger, from its take-off until the aircraft leaves. An aircraft that holds
 //! moves to a stand if one is free, and keeps its charger if not. Which aircraft finds a stand free
@@ -11,7 +12,7 @@ use vertifleet_core::{AircraftIx, VertiportIx};
 use super::day::Day;
 use super::stand_times::{Change, Moment, StandTimes};
 
-/// What an aircraft does at a vertiport, from its take-off towards it until it leaves.
+/// The stay of an aircraft at a vertiport, from its take-off towards it until it leaves.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Stay {
     pub(super) aircraft: AircraftIx,
@@ -30,20 +31,21 @@ enum Event {
     Leaves,
 }
 
-/// The stands beside the chargers of all vertiports.
+/// The waiting stands of all vertiports that have chargers.
 #[derive(Debug, Clone)]
-pub(super) struct BesideChargers {
+pub(super) struct WaitingStands {
     /// The times at which these stands are taken. A vertiport without chargers has none.
     pub(super) stands: StandTimes,
     /// A vertiport with more aircraft than chargers, if there is one.
     pub(super) overfull: Option<VertiportIx>,
 }
 
-impl BesideChargers {
-    /// The stands of a day without flights; `None` if no vertiport has chargers beside its stands.
+impl WaitingStands {
+    /// The stands of a day without flights; `None` if no vertiport has both chargers and waiting
+    /// stands.
     pub(super) fn of(day: &Day) -> Option<Self> {
         let limits: Vec<Option<u16>> = VertiportIx::all(day.vertiports)
-            .map(|vertiport| day.stands_beside_chargers(vertiport))
+            .map(|vertiport| day.waiting_stands(vertiport))
             .collect();
         let any = limits.iter().any(Option::is_some);
         let limits: Vec<u16> = limits.into_iter().map(Option::unwrap_or_default).collect();
@@ -59,7 +61,7 @@ impl BesideChargers {
             by_vertiport[stay.at.at()].push(*stay);
         }
         for (vertiport, stays) in VertiportIx::all(day.vertiports).zip(&by_vertiport) {
-            if let Some(stands) = day.stands_beside_chargers(vertiport) {
+            if let Some(stands) = day.waiting_stands(vertiport) {
                 let limits = (chargers.limit(vertiport), i32::from(stands));
                 let counted = Counted::of(day, stays, limits);
                 if counted.is_overfull {
@@ -120,7 +122,7 @@ impl Counted {
     }
 }
 
-/// What happens at a vertiport in the course of the day, with the number of the stay.
+/// The events at a vertiport in the course of the day, each with the number of its stay.
 fn events(day: &Day, stays: &[Stay]) -> Vec<(Moment, usize, Event)> {
     let mut events = Vec::new();
     for (number, stay) in stays.iter().enumerate() {

@@ -23,11 +23,11 @@ pub(super) struct Day {
     pub(super) energy_price_usd: Vec<f64>,
     /// Cost of the fleet, whether or not it flies, dollars.
     pub(super) fixed_cost_usd: f64,
-    /// U_max of each vertiport: the number of its stands, or of its chargers where it has them
-    /// beside its stands.
+    /// U_max of each vertiport: the number of its stands, or of its chargers where it has waiting
+    /// stands too.
     pub(super) stands: Vec<u16>,
-    /// Number of stands of each vertiport with chargers beside them.
-    beside_chargers: Vec<Option<u16>>,
+    /// Number of waiting stands of each vertiport that has chargers too.
+    waiting_stands: Vec<Option<u16>>,
     /// The type of each aircraft.
     kind_of: Vec<TypeIx>,
     seats: Vec<u16>,
@@ -72,7 +72,7 @@ impl Day {
             energy_price_usd: view.energy_prices_usd().to_vec(),
             fixed_cost_usd: view.fixed_cost_usd(),
             stands: VertiportIx::all(vertiports).map(|vertiport| view.stands(vertiport)).collect(),
-            beside_chargers: scenario
+            waiting_stands: scenario
                 .vertiports
                 .iter()
                 .map(|one| one.chargers.map(|_| one.stands))
@@ -111,8 +111,8 @@ impl Day {
     /// Number of stands of a vertiport that also has chargers; `None` where stands are the only
     /// places.
     #[inline]
-    pub(super) fn stands_beside_chargers(&self, vertiport: VertiportIx) -> Option<u16> {
-        self.beside_chargers[vertiport.at()]
+    pub(super) fn waiting_stands(&self, vertiport: VertiportIx) -> Option<u16> {
+        self.waiting_stands[vertiport.at()]
     }
 
     /// The flights that aircraft of a type can make from a vertiport.

@@ -102,7 +102,7 @@ fn dive(
     let fleet = scenario.aircraft.len() as f64;
     let begun = Instant::now();
     let rest = Rest::of(scenario, stopped, &mut |steps, next| {
-        // The first cut tells how long a step takes. A finer one should leave time to find prices
+        // The first cut shows how long a step takes. A finer one should leave time to find prices
         // after each aircraft.
         let to_come = if next == 0 { 0.0 } else { f64::from(next) + f64::from(STEPS) * fleet };
         let takes_s = begun.elapsed().as_secs_f64() * to_come / f64::from(steps.max(1));

@@ -40,7 +40,7 @@ impl GuidingPrices {
         })
     }
 
-    /// The prices of what is left of a day.
+    /// The prices of the rest of a day.
     pub(super) fn of_rest(day: &Day, rest: &Rest) -> Self {
         let tables = day.types().flat_map(|kind| [true, false].map(|is_early| (kind, is_early)));
         let flights = tables.flat_map(|(kind, early)| rest.flights_usd(day.seats_of(kind), early));

@@ -4,7 +4,7 @@
 //! label the aircraft flies to any vertiport that has a stand for it from take-off until it is
 //! ready again, or holds. Labels are settled forwards in time. Of the labels of one vertiport
 //! within one slot of time only the best is kept, which bounds the work. Each is exact to the
-//! second, so the result is feasible, but for vertiports with chargers beside stands
+//! second, so the result is feasible, except at vertiports with chargers and waiting stands
 //! (`chargers.rs`).
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
@@ -76,14 +76,14 @@ pub(super) struct ItinerarySearch {
     /// The windows in which each vertiport has a stand for one more aircraft, vertiport by
     /// vertiport. Each list ends with a window that never opens.
     windows: Vec<Window>,
-    /// The windows of the stands beside chargers, by vertiport. Empty on a day without such stands.
-    beside_chargers: Vec<Vec<Window>>,
-    /// Whether the aircraft is on a stand beside chargers at each label. Empty on a day without
-    /// such stands.
+    /// The windows of the waiting stands, by vertiport. Empty on a day without such stands.
+    waiting_stands: Vec<Vec<Window>>,
+    /// Whether the aircraft is on a waiting stand at each label. Empty on a day without such
+    /// stands.
     has_stand: Vec<bool>,
-    /// What a flight brings, but for its energy, dollars: by period, and whether passengers of the
-    /// period before still wait, then vertiport and number of the hop. A table is filled when the
-    /// first flight of its time is looked at.
+    /// The amount that a flight brings, without its energy, dollars: by period, and whether
+    /// passengers of the period before still wait, then vertiport and number of the hop. A table is
+    /// filled when the first flight of its time is looked at.
     offers_usd: Vec<f64>,
     has_offers: Vec<bool>,
     /// Position in `windows` of the first window of each vertiport that has not closed yet.
@@ -137,7 +137,7 @@ struct Place {
     at: VertiportIx,
     /// When the aircraft can be there.
     window: Window,
-    /// Whether it is on a stand beside chargers.
+    /// Whether it is on a waiting stand.
     has_stand: bool,
 }
 
@@ -214,14 +214,14 @@ impl ItinerarySearch {
         self.labels.clear();
         self.labels.resize(slots as usize * day.vertiports, UNREACHED);
         self.has_stand.clear();
-        if let Some(beside) = &task.schedule.beside_chargers {
+        if let Some(waiting) = &task.schedule.waiting_stands {
             self.has_stand.resize(self.labels.len(), false);
-            self.beside_chargers.resize(day.vertiports, Vec::new());
+            self.waiting_stands.resize(day.vertiports, Vec::new());
             for (vertiport, windows) in
-                VertiportIx::all(day.vertiports).zip(&mut self.beside_chargers)
+                VertiportIx::all(day.vertiports).zip(&mut self.waiting_stands)
             {
                 windows.clear();
-                beside.stands.append_windows(vertiport, windows);
+                waiting.stands.append_windows(vertiport, windows);
             }
         }
     }
@@ -313,7 +313,7 @@ impl ItinerarySearch {
 
     #[inline]
     fn hold(&mut self, task: &Task<'_>, choice: &Choice) {
-        let has_stand = self.has_stand_beside_chargers(task, choice);
+        let has_stand = self.has_waiting_stand(task, choice);
         // Otherwise the aircraft has its place at least until it decides.
         let window =
             if has_stand { Some(Window::ALWAYS) } else { self.window(choice.place, choice.moment) };
@@ -323,14 +323,14 @@ impl ItinerarySearch {
         self.reach(task, choice, place, ready_s, 0.0);
     }
 
-    /// Whether the aircraft can hold on a stand beside chargers, where it is already or one is
+    /// Whether the aircraft can hold on a waiting stand, because it is on one already or one is
     /// free.
     #[inline]
-    fn has_stand_beside_chargers(&self, task: &Task<'_>, choice: &Choice) -> bool {
-        if task.problem.day.stands_beside_chargers(choice.place).is_none() {
+    fn has_waiting_stand(&self, task: &Task<'_>, choice: &Choice) -> bool {
+        if task.problem.day.waiting_stands(choice.place).is_none() {
             return false;
         }
-        let windows = &self.beside_chargers[choice.place.at()];
+        let windows = &self.waiting_stands[choice.place.at()];
         let at = windows.partition_point(|window| window.closes <= choice.moment);
         self.has_stand[choice.label as usize]
             || windows.get(at).is_some_and(|window| window.opens <= choice.moment)

@@ -1,5 +1,5 @@
 //! The passengers whom the flights of a schedule carry. The margin of one flight more or less is
-//! exact in whatever order flights are entered.
+//! exact for any order in which flights are entered.
 //!
 //! Those of a pair and period are min(demand, seats of its flights) in total, whichever flight they
 //! board. Where passengers wait into the next period, flights of its first seconds take those who
@@ -73,8 +73,8 @@ impl Passengers {
         Self::Wait(Waiting { demand, seats, left_over, changed: Vec::new() })
     }
 
-    /// What one more flight with this number of seats would bring beyond the costs of its
-    /// passengers, dollars.
+    /// The amount that one more flight with this number of seats would bring beyond the costs of
+    /// its passengers, dollars.
     #[inline]
     pub(super) fn margin_usd(&self, day: &Day, departure: Departure, seats: i64) -> f64 {
         match self {
@@ -85,8 +85,8 @@ impl Passengers {
         }
     }
 
-    /// Adds so many seats to the flights of a pair, or removes them if negative. Returns by how
-    /// much the margin of all passengers grows, dollars.
+    /// Adds `seats` to the flights of a pair, or removes them if negative. Returns by how much the
+    /// margin of all passengers grows, dollars.
     pub(super) fn add(&mut self, day: &Day, departure: Departure, seats: i64) -> f64 {
         match self {
             Self::Leave(left) => {
@@ -121,8 +121,8 @@ impl Waiting {
         usd
     }
 
-    /// By how much the margin of all passengers grows with so many more seats, dollars. Calls `see`
-    /// with each cell on which this has an effect, and those of it who are then left over.
+    /// By how much the margin of all passengers grows with `seats` more, dollars. Calls `see` with
+    /// each cell on which this has an effect, and those of it who are then left over.
     fn change_usd(
         &self,
         day: &Day,
@@ -164,7 +164,8 @@ impl Waiting {
     }
 }
 
-/// What the flights of a pair and period carry, and those of the period who are left over.
+/// The loads of the flights of a pair and period, and the passengers of the period who are left
+/// over.
 struct Carried {
     passengers: i64,
     left_over: i64,

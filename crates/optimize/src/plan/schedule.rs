@@ -3,7 +3,7 @@
 
 use vertifleet_core::{AircraftIx, VertiportIx};
 
-use super::chargers::{BesideChargers, Stay};
+use super::chargers::{Stay, WaitingStands};
 use super::day::Day;
 use super::passengers::{Departure, Passengers};
 use super::problem::Problem;
@@ -35,7 +35,7 @@ pub(super) struct Schedule {
     itineraries: Vec<Itinerary>,
     pub(super) stands: StandTimes,
     /// The stands of vertiports with chargers. For these, `stands` has the chargers.
-    pub(super) beside_chargers: Option<BesideChargers>,
+    pub(super) waiting_stands: Option<WaitingStands>,
     pub(super) passengers: Passengers,
     value_usd: f64,
 }
@@ -59,7 +59,7 @@ impl Schedule {
         let mut schedule = Self {
             itineraries,
             stands,
-            beside_chargers: BesideChargers::of(day),
+            waiting_stands: WaitingStands::of(day),
             passengers: Passengers::of(day, demand),
             value_usd: 0.0 - day.fixed_cost_usd,
         };
@@ -161,15 +161,15 @@ impl Schedule {
 
     /// A vertiport that has more aircraft than chargers at some moment, if there is one.
     pub(super) fn overfull(&self) -> Option<VertiportIx> {
-        self.beside_chargers.as_ref().and_then(|beside| beside.overfull)
+        self.waiting_stands.as_ref().and_then(|waiting| waiting.overfull)
     }
 
     /// Counts the places of vertiports with chargers again.
     fn count_chargers(&mut self, day: &Day) {
-        let Some(mut beside) = self.beside_chargers.take() else { return };
+        let Some(mut waiting) = self.waiting_stands.take() else { return };
         let stays: Vec<Stay> = day.fleet().flat_map(|aircraft| self.stays(day, aircraft)).collect();
-        beside.count(day, &stays, &mut self.stands);
-        self.beside_chargers = Some(beside);
+        waiting.count(day, &stays, &mut self.stands);
+        self.waiting_stands = Some(waiting);
     }
 
     /// The stays of an aircraft. If its itinerary is not whole, it leaves the last one when it is

@@ -1,4 +1,4 @@
-//! Searches side by side, which share what they find now and then.
+//! Searches in parallel, which share their results from time to time.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};

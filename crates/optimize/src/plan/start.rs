@@ -86,8 +86,8 @@ const ANSWERS: &str = "these policies always answer, and from the mask";
 /// `go_on` is called with the best profit so far in dollars, and while a day is being played, with
 /// the share of it that is over, in decisions of greedy's day. If it returns `false`, that day is
 /// left out; before a day begins, all following ones are too. Greedy's day is always played. The
-/// prices decide for as long as there is any time, and greedy for the rest of their day: on a large
-/// network with a short limit, no other policy gets this far.
+/// prices decide until the time is over, and greedy for the rest of their day: on a large network
+/// with a short limit, no other policy gets this far.
 pub(super) fn best_policy(
     scenario: &Arc<Scenario>,
     more: Vec<StartingPolicy>,

@@ -25,8 +25,8 @@ impl Tempo {
         Self { until, ..Self::default() }
     }
 
-    /// Whether prices should be found again now that so many aircraft are left: after each if there
-    /// is time for that, and otherwise after every few.
+    /// Whether prices should be found again when `left` aircraft are left: after each if there is
+    /// time for that, and otherwise after every few.
     pub(super) fn is_time_to_price(&mut self, left: usize) -> bool {
         if left == 0 {
             return false;
@@ -67,9 +67,9 @@ mod tests {
 
     use super::{Spent, Tempo};
 
-    /// After how many of 12 aircraft prices are found again, if there are so many seconds, planning
-    /// an aircraft takes one and finding prices takes 10. They are so many that the time of the
-    /// test itself makes no difference.
+    /// After how many of 12 aircraft prices are found again, within a number of seconds, if
+    /// planning an aircraft takes one and finding prices takes 10. The numbers are large enough for
+    /// the time of the test itself to make no difference.
     fn times_priced(seconds: u64) -> usize {
         let spent = |s: u64| Spent { times: 1, took: Duration::from_secs(1_000 * s) };
         let until = |left_s: u64| Some(Instant::now() + Duration::from_secs(1_000 * left_s));

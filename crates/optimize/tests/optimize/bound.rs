@@ -249,7 +249,7 @@ fn a_kept_bound_is_the_bound_and_a_damaged_one_is_found_anew() {
 
     kept(&any_day(8, Size { vertiports: 5, fleet: 9, hours: 4 }), 30);
     kept(&day, 60);
-    assert_eq!(files().len(), 3, "another day and another step have files of their own");
+    assert_eq!(files().len(), 3, "another day and another step have separate files");
 }
 
 #[test]
@@ -360,7 +360,7 @@ fn a_day_with_one_more_stand_solved_again_is_bounded_by_the_bound_and_the_worth_
         let again = upper_bound(&more, step).expect("a small day").upper_bound_usd();
         let most = bound.upper_bound_usd() + bound.stand_shadow_price_usd(at);
         // The search does not reach the very lowest bound, so a small tolerance is needed.
-        assert!(again <= 1.003 * most, "{at:?}: {again} is proven anew, {most} by the worth");
+        assert!(again <= 1.003 * most, "{at:?}: {again} is proven again, {most} by the worth");
         let earned = earned_usd(&more, &mut BidPricePolicy::default());
         assert!(earned <= most, "{at:?}: {earned} is earned, {most} is proven");
     }

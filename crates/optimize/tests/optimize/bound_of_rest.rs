@@ -1,4 +1,4 @@
-//! The bound of what is left of a live day, against every way in which the day can go on.
+//! The bound of the rest of a live day, against every way in which the day can continue.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ fn bound_usd(day: &Scenario, ready: &[Time], minutes: u32) -> f64 {
     bound.expect("it is not stopped").upper_bound_usd()
 }
 
-/// Tells a live day what happens in its first decisions, which a policy takes.
+/// Reports to a live day its first decisions, which a policy takes.
 fn begun(day: &Arc<Scenario>, policy: &mut dyn Policy, decisions: u32) -> LiveDay {
     let (mut live, mut reporter) = (LiveDay::new(Arc::clone(day)), Reporter::new(day));
     let mut room = None;
@@ -52,7 +52,7 @@ fn best_of_rest(rest: &mut Imagined, most: &mut u32) -> Option<f64> {
 }
 
 #[test]
-fn no_way_to_go_on_earns_more_than_the_bound_of_what_is_left() {
+fn no_way_to_go_on_earns_more_than_the_bound_of_the_rest() {
     let excess_usd: Vec<f64> = (0..400_u32)
         .into_par_iter()
         .filter_map(|number| {
@@ -60,7 +60,7 @@ fn no_way_to_go_on_earns_more_than_the_bound_of_what_is_left() {
             let mut live = begun(&day, &mut Greedy, 1 + number % 6);
             let so_far = live.totals().profit_usd;
             let best = best_of_rest(&mut live.rest(), &mut 3_000)? - so_far;
-            let left = live.what_is_left().expect("a day within bounds")?;
+            let left = live.remaining_day().expect("a day within bounds")?;
             let bounds = [1, [5, 13, 60][number as usize % 3]];
             let bounds = bounds.map(|minutes| bound_usd(&left.day, &left.ready, minutes));
             for bound in bounds {
@@ -76,9 +76,9 @@ fn no_way_to_go_on_earns_more_than_the_bound_of_what_is_left() {
 }
 
 #[test]
-fn before_the_first_event_what_is_left_is_the_day() {
+fn before_the_first_event_the_rest_is_the_whole_day() {
     let day = paper_day(3);
-    let left = LiveDay::new(Arc::clone(&day)).what_is_left().expect("a day").expect("all of it");
+    let left = LiveDay::new(Arc::clone(&day)).remaining_day().expect("a day").expect("all of it");
     let step = Step::from_minutes(60).expect("a step");
     let whole = upper_bound(&day, step).expect("a bound").upper_bound_usd();
     assert_eq!(bound_usd(&left.day, &left.ready, 60), whole);
@@ -90,7 +90,7 @@ fn the_bound_of_the_day_is_tight_from_morning_to_evening() {
     for decisions in [50, 150, 300] {
         let mut live = begun(&day, &mut BidPricePolicy::default(), decisions);
         let so_far = live.totals().profit_usd;
-        let left = live.what_is_left().expect("a day").expect("some of it");
+        let left = live.remaining_day().expect("a day").expect("some of it");
         let bound = so_far + bound_usd(&left.day, &left.ready, 15);
         let mut rest = live.rest();
         let mut policy = BidPricePolicy::default();

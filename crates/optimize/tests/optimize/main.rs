@@ -1,4 +1,4 @@
-//! What the bound, the planner and the rolling horizon promise.
+//! The guarantees of the bound, the planner and the rolling horizon.
 
 mod bound;
 mod bound_of_rest;

@@ -84,7 +84,7 @@ fn a_tiny_disturbed_day_is_planned_as_well_as_any_sequence_of_decisions_allows()
 
 /// Days on which one aircraft has to earn less than it could so that another can earn more. A
 /// search in which every move is the best for one aircraft stays below the optimum of each of these
-/// days, however long it runs.
+/// days for any running time.
 #[test]
 fn a_tiny_day_is_planned_to_its_optimum_where_no_aircraft_may_take_what_is_best_for_itself() {
     let days =

@@ -100,7 +100,7 @@ fn a_proof_ends_as_soon_as_its_bound_is_known_to_be_reached() {
     idle.demand.iter_mut().for_each(|table| table.cells_mut().fill(0));
     let day = Arc::new(idle.check("no demand").expect("a day within the rules"));
     let proof = Proof::begin(&day);
-    proof.knows(0.0);
+    proof.record_profit(0.0);
     assert!(proof.wait(Duration::from_mins(1)));
     let bound = proof.outcome().expect("a bound");
     assert!(bound.is_final());
@@ -109,7 +109,7 @@ fn a_proof_ends_as_soon_as_its_bound_is_known_to_be_reached() {
     let day = paper_day(3);
     let proof = Proof::begin(&day);
     // No schedule earns this much, but the search has to believe it.
-    proof.knows(1e9);
+    proof.record_profit(1e9);
     assert!(proof.wait(Duration::from_mins(1)));
     assert!(proof.share() < 0.5);
 }

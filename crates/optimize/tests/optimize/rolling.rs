@@ -73,7 +73,7 @@ fn a_day_has_one_outcome_whatever_was_played_before_and_on_how_many_threads() {
 fn a_day_can_be_taken_up_in_its_middle_whatever_is_remembered() {
     for number in 340..350 {
         let day = any_day(number, SMALL);
-        // Another day of the same seed, so that only the day itself tells the two apart.
+        // Another day of the same seed, so that only the day itself differs.
         let mut other = Scenario::clone(&any_day(number + 50, SMALL)).into_day();
         other.seed = day.seed;
         let other = Arc::new(other.check("another day").expect("a seed is a number"));

@@ -106,7 +106,7 @@ struct Lanes<S: Simd> {
     change: S::f64s,
 }
 
-/// What a hop to one destination may bring, from the first lane of a block on.
+/// The amount that a hop to one destination may bring, from the first lane of a block on.
 struct Destination<'a, S: Simd> {
     /// Its worth less what has been paid, at all boundaries from the first lane on.
     worth_usd: &'a [f64],

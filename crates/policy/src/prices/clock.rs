@@ -6,7 +6,7 @@ use vertifleet_sim::View;
 /// minutes earned 0.3 % less.
 pub(super) const SLOT_S: u32 = 180;
 
-/// So many seconds as a share of a slot, because divisions are slow.
+/// Each number of seconds as a share of a slot, because divisions are slow.
 static SHARES: [f64; SLOT_S as usize] = {
     let mut shares = [0.0; SLOT_S as usize];
     let mut second = 0;

@@ -1,4 +1,4 @@
-//! The fleet at its next decisions, as a search for prices sees it.
+//! The fleet at its next decisions, for a search for prices.
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 use vertifleet_sim::View;

@@ -51,7 +51,7 @@ struct Hop {
     pair: usize,
 }
 
-/// What is needed of a hop to follow an aircraft.
+/// The parts of a hop that are needed to follow an aircraft.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flight {
     pub(super) block_s: u32,

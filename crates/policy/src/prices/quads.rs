@@ -1,7 +1,7 @@
 //! The hops as the backward pass looks at them: from four vertiports at a time, in the order of
 //! their destinations.
 //!
-//! What is known of a destination is then read once for the hops from four vertiports, and the four
+//! The values of a destination are then read once for the hops from four vertiports, and the four
 //! comparisons do not wait for each other. A vertiport of a quad may have no hop to a destination
 //! that another one has; its gain there stays minus infinity, so it is never the best.
 
@@ -120,7 +120,7 @@ impl Quads {
         QUAD * (self.begins[quad] + at) + from.at() % QUAD
     }
 
-    /// The hops of one type out of so many.
+    /// The hops of one type.
     pub(super) fn of_kind(&self, kind: TypeIx) -> QuadsOfKind<'_> {
         let quads = (self.begins.len() - 1) / self.shortest.len();
         QuadsOfKind {

@@ -1,12 +1,12 @@
-//! Destinations in the order of the most that a flight to each can be worth, so that the best is
-//! found with a look at a few of them.
+//! Destinations in the order of the most that a flight to each can be worth, so that only a few of
+//! them are evaluated to find the best.
 //!
 //! Roll-outs look at all destinations of every decision, and on a day of 100 vertiports this takes
-//! nearly all of their time. While prices stay as they are, what a flight can be worth if it is
-//! decided in a slot has a bound: all seats are full, the energy is as cheap and the worth of being
-//! ready as high as at any time in the slot. The destinations are sorted by this bound once. A
-//! decision then looks at them from the highest bound on, and stops where the bound of the next is
-//! below the worth of the best that it has seen. It finds what a look at all of them finds.
+//! nearly all of their time. While prices stay as they are, the worth of a flight that is decided
+//! in a slot has a bound: all seats are full, the energy is as cheap and the worth of being ready
+//! as high as at any time in the slot. The destinations are sorted by this bound once. A decision
+//! then looks at them from the highest bound on, and stops where the bound of the next is below the
+//! worth of the best that it has seen. The result is the same as if all of them were evaluated.
 
 use std::ops::Range;
 
@@ -130,7 +130,7 @@ impl Ranked<'_> {
     }
 }
 
-/// What flights earn at most, whatever second of a slot they are decided in.
+/// The most that flights earn, over all seconds of a slot in which they may be decided.
 struct Fares<'a> {
     view: View<'a>,
     clock: &'a Clock,

@@ -39,7 +39,7 @@ pub(super) struct Relaxation {
     hold_s: u32,
     stands: Vec<f64>,
     seats_a_flight: Option<u32>,
-    /// What the passengers that are left ask for, by period, then pair.
+    /// The seats that the remaining passengers ask for, by period, then pair.
     pub(super) seats: Vec<Seats>,
     /// The pairs whose price or mean excess is not at rest.
     pub(super) wanted: Wanted,
@@ -264,8 +264,8 @@ impl Relaxation {
         self.ask(count, way.place, slot, way.slot);
     }
 
-    /// Records that a number of stands are asked for from one slot until another: so many more from
-    /// the first on, and so many less from the second on.
+    /// Records that a number of stands are asked for from one slot until another: the number is
+    /// added from the first on, and subtracted from the second on.
     #[inline]
     fn ask(&mut self, count: u32, place: VertiportIx, from: usize, until: usize) {
         let number = f64::from(count);

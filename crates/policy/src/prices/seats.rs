@@ -37,7 +37,8 @@ impl Seats {
         self.of_full_flights + if asks_for_last { self.of_last_flight } else { 0.0 }
     }
 
-    /// What aircraft pay for these seats, less the fares of the seats that stay empty, dollars.
+    /// The price that aircraft pay for these seats, less the fares of the seats that stay empty,
+    /// dollars.
     #[inline]
     pub(super) fn surplus_usd(self, price_usd: f64) -> f64 {
         let last_usd = (price_usd - self.last_flight_above_usd).max(0.0);

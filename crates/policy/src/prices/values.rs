@@ -97,7 +97,7 @@ impl ValueTable {
         self.best[(kind.at() * self.vertiports + place.at()) * self.clock.slots + slot]
     }
 
-    /// What aircraft of a type that decide now may be worth.
+    /// The worth of aircraft of a type that decide now.
     #[inline]
     pub(super) fn worths_from(&self, kind: TypeIx, now_s: u32) -> WorthsFrom<'_> {
         let table = self.vertiports * self.stride;
@@ -110,7 +110,7 @@ impl ValueTable {
         }
     }
 
-    /// The most that [`WorthsFrom::usd`] says for flights that are decided in a slot and take
+    /// The most that [`WorthsFrom::usd`] returns for flights that are decided in a slot and take
     /// `block_s`. Between two boundaries nothing is worth more than at the better one.
     pub(super) fn most_usd(&self, kind: TypeIx, to: VertiportIx, slot: usize, block_s: u32) -> f64 {
         let begin_s = self.clock.begin_s(slot);

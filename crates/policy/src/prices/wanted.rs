@@ -19,7 +19,7 @@ pub(super) struct Wanted {
 }
 
 impl Wanted {
-    /// No positions out of so many.
+    /// No positions, of a given number.
     pub(super) fn none_of(positions: usize) -> Self {
         Self { is_listed: vec![0; positions.div_ceil(64)], listed: Vec::new(), fresh: Vec::new() }
     }

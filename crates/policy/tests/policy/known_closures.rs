@@ -55,11 +55,11 @@ fn alone_and_with_room_an_aircraft_earns_what_its_prices_say_of_a_day_with_known
         let mut simulation = Simulation::new(Arc::clone(&day));
         simulation.next_decision().expect("the day is young");
         let prices = DayPrices::of(simulation.view(), start);
-        let said_usd = prices.worth_usd(TypeIx(0), day.aircraft[AircraftIx(0).at()].at, start);
+        let predicted_usd = prices.worth_usd(TypeIx(0), day.aircraft[AircraftIx(0).at()].at, start);
         let (profit_usd, _) = played(&day);
         // Worth is linear within a slot of three minutes, even if a closure begins or ends in it.
-        let off = (profit_usd - said_usd).abs() / said_usd;
-        assert!(off < 0.03, "day {seed}: {profit_usd} earned, {said_usd} said");
+        let off = (profit_usd - predicted_usd).abs() / predicted_usd;
+        assert!(off < 0.03, "day {seed}: {profit_usd} earned, {predicted_usd} predicted");
     }
 }
 

@@ -1,4 +1,4 @@
-//! What the rules that need no learning promise, on their own and in whole days.
+//! The guarantees of the rules that need no learning, for single decisions and in whole days.
 
 mod known_closures;
 mod prices;

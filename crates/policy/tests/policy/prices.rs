@@ -62,7 +62,7 @@ fn no_policy_counts_on_a_route_that_is_closed() {
 }
 
 #[test]
-fn prices_are_found_anew_at_once_when_routes_open() {
+fn prices_are_recomputed_immediately_when_routes_open() {
     let mut simulation = Simulation::new(shut_in(1, 600));
     let decision = simulation.next_decision().expect("the day is young");
     let mut prices = DayPrices::of(simulation.view(), decision.time);
@@ -111,16 +111,16 @@ fn prices_are_never_negative_and_worth_falls_to_nothing_at_the_end() {
 }
 
 #[test]
-fn alone_and_with_room_an_aircraft_earns_what_its_prices_say() {
+fn an_aircraft_alone_and_with_room_earns_what_its_prices_predict() {
     for seed in 0..5 {
         let alone = changed(seed, 1, 1);
         let start = alone.operations.start;
-        let said_usd =
+        let predicted_usd =
             prices_of(&alone).worth_usd(TypeIx(0), alone.aircraft[AircraftIx(0).at()].at, start);
         let (_, profit_usd) = played(&alone, &mut BidPricePolicy::default());
         // Worth is linear within a slot of three minutes, and waiting is worth nothing here.
-        let off = (profit_usd - said_usd).abs() / said_usd;
-        assert!(off < 0.01, "day {seed}: {profit_usd} earned, {said_usd} said");
+        let off = (profit_usd - predicted_usd).abs() / predicted_usd;
+        assert!(off < 0.01, "day {seed}: {profit_usd} earned, {predicted_usd} predicted");
     }
 }
 
@@ -137,18 +137,18 @@ fn the_rule_keeps_every_rule_of_the_world_and_earns_more_than_greedy() {
 }
 
 #[test]
-fn a_day_has_one_outcome_whatever_was_played_before() {
+fn a_day_has_one_outcome_after_any_other_day() {
     let (one, other) = (paper_day(7), paper_day(8));
     let mut policy = BidPricePolicy::default();
     let first = played(&one, &mut policy);
     played(&other, &mut policy);
     assert_eq!(played(&one, &mut policy), first);
-    assert_eq!(played(&one, &mut policy), first, "the same day once more begins anew");
+    assert_eq!(played(&one, &mut policy), first, "the same day starts over");
 }
 
 #[test]
 fn days_played_by_turns_are_not_mixed_up() {
-    // Both days have the same seed, so that only the days themselves tell them apart.
+    // Both days have the same seed, so that only the days themselves differ.
     let days = [changed(9, 40, 6), changed(9, 40, 7)];
     let mut simulations = days.clone().map(Simulation::new);
     let mut policy = BidPricePolicy::default();
@@ -174,7 +174,7 @@ fn thin(seed: u64) -> Arc<Scenario> {
 }
 
 #[test]
-fn where_hardly_anybody_wants_to_fly_prices_earn_as_much_as_greedy() {
+fn where_few_passengers_want_to_fly_prices_earn_as_much_as_greedy() {
     let (mut prices_usd, mut greedy_usd) = (0.0, 0.0);
     for seed in 0..6 {
         let day = thin(seed);

@@ -9,7 +9,7 @@ fn roll_outs_on_several_threads_have_the_values_of_roll_outs_on_one() {
     let mut simulation = Simulation::new(paper_day(1));
     let start = simulation.next_decision().expect("a day has decisions");
     let prices = DayPrices::of(simulation.view(), start.time);
-    // So many roll-outs that they are worth several threads.
+    // Enough roll-outs to be worth several threads.
     let settings =
         RolloutSettings { horizon_s: 7_200, rollouts: 300, noise: 0.05, price_weight: 1.0 };
     let mut shortlist = Shortlist::default();

@@ -40,7 +40,7 @@ fn a_replay_repeats_the_day_to_the_bit() {
 }
 
 #[test]
-fn a_replay_of_another_day_gets_stuck_and_says_where() {
+fn a_replay_of_another_day_gets_stuck_and_reports_where() {
     let (trace, _) = trace_of(&paper_day(3), &mut Greedy);
     let stuck = |day: Arc<Scenario>, trace: Trace| {
         let mut replay = Replay::new(Arc::new(trace));

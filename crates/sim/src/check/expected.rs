@@ -94,7 +94,8 @@ fn fit_again_s(scenario: &Scenario, event: &Event<'_>, arrival_s: u64) -> u64 {
 }
 
 /// A duration rounded to the nearest second, half a second up. Where the duration is half a second
-/// and `f64` cannot tell from which side, `stated` is taken if it is one of the two neighbours.
+/// and `f64` does not show which side is nearer, `stated` is taken if it is one of the two
+/// neighbours.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -131,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn only_at_half_a_second_may_a_schedule_say_which_way() {
+    fn only_at_half_a_second_may_a_schedule_choose_the_rounding() {
         // 12.3 miles at 80 mph take half a second exactly, which in binary is on one side or the
         // other.
         let half = 3600.0 * 12.3 / 80.0;

@@ -46,7 +46,7 @@ pub struct Totals {
     pub passenger_cost_usd: f64,
     /// Cost of charging (Eq. 3).
     pub energy_cost_usd: f64,
-    /// Cost of flights with or without passengers, beside their energy.
+    /// Cost of flights without their energy, with or without passengers.
     pub flight_cost_usd: f64,
     /// Cost of the fleet, whether or not it flies.
     pub aircraft_cost_usd: f64,
@@ -84,7 +84,7 @@ impl Totals {
         self.energy_kwh += flight.energy_kwh;
     }
 
-    /// Enters what the day costs whatever is flown, and computes the profit.
+    /// Enters the fixed cost of the day, and computes the profit.
     pub(super) fn close(&mut self, scenario: &Scenario) {
         self.aircraft_cost_usd = scenario.aircraft_cost_usd * scenario.aircraft.len() as f64;
         for vertiport in &scenario.vertiports {
@@ -223,7 +223,7 @@ impl fmt::Display for Totals {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "worked out anew: decisions {}, flights {} (without passengers {}), holds {}, passengers {}",
+            "recomputed: decisions {}, flights {} (without passengers {}), holds {}, passengers {}",
             self.decisions, self.flights, self.repositioning_flights, self.holds, self.passengers
         )?;
         write!(

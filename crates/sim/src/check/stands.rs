@@ -1,6 +1,6 @@
 //! Stands (Eq. 16): U_i, the number of aircraft standing at i or in the air towards it, is between
-//! 0 and U_max at every instant. The same holds for chargers, where a vertiport has chargers beside
-//! its other stands.
+//! 0 and U_max at every instant. The same holds for chargers, where a vertiport also has stands
+//! without chargers.
 //!
 //! U_i only changes at a take-off, from the vertiport that an aircraft leaves to the one that it
 //! flies to, so checking each take-off checks every instant. At one instant the aircraft listed

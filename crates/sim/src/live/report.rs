@@ -1,4 +1,4 @@
-//! What is reported of a day that happens, and why a report is refused.
+//! The reports of a live day, and the reasons to refuse one.
 
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 
@@ -25,7 +25,7 @@ pub enum Report {
     Departed {
         /// The aircraft.
         aircraft: AircraftIx,
-        /// The vertiport that it flies to, if that is not what was decided.
+        /// The vertiport that it flies to, if that is not the decided one.
         to: Option<VertiportIx>,
         /// Passengers on board, if not as many as expected.
         passengers: Option<u16>,
@@ -49,7 +49,7 @@ pub enum Report {
         /// The aircraft.
         aircraft: AircraftIx,
     },
-    /// What an aircraft does next is expected at another time: its departure if it has been sent
+    /// The next event of an aircraft is expected at another time: its departure if it has been sent
     /// off, its landing if it is in the air, the end of charging if it stands.
     Delayed {
         /// The aircraft.
@@ -95,8 +95,7 @@ pub enum Report {
         /// The seats.
         booking: Booking,
     },
-    /// Passengers do not want to fly any more. Their period may be over, if they wait in the next
-    /// one.
+    /// Passengers no longer want to fly. Their period may be over, if they wait in the next one.
     Cancelled {
         /// The seats.
         booking: Booking,
@@ -150,7 +149,7 @@ impl Routes {
     }
 }
 
-/// Something about a report that people should look at. The report was taken in.
+/// Something about a report that people should look at. The report was accepted.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Notice {
     /// A vertiport has more aircraft than stands.
@@ -196,8 +195,8 @@ pub enum Notice {
         /// Where it was flying to.
         to: String,
     },
-    /// An aircraft should have departed or landed, and no report says that it did.
-    #[error("aircraft {aircraft:?} should have {done} at {time}, and no report says that it has")]
+    /// An aircraft should have departed or landed, and neither was reported.
+    #[error("aircraft {aircraft:?} should have {done} at {time}, which was not reported")]
     Overdue {
         /// The aircraft.
         aircraft: String,

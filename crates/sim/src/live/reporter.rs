@@ -1,4 +1,4 @@
-//! A simulated day, told as a live day would hear of it: report by report, each when it becomes
+//! Plays a known day and reports it as a live day receives it: event by event, each when it becomes
 //! known.
 
 use std::cmp::Reverse;
@@ -12,12 +12,12 @@ use crate::{DayTotals, Decision, Refusal, Simulation, TraceRow};
 
 /// Plays a day that is known, and reports what happens on it.
 ///
-/// A live day that is told these reports, each before any decision that is later, sees at every
-/// decision what a policy sees in the simulation.
+/// A live day that receives each of these reports before any later decision shows policies, at
+/// every decision, what they observe in the simulation.
 #[derive(Debug, Clone)]
 pub struct Reporter {
     day: Simulation,
-    /// What will be reported, with its time; of several with one time, the first entered comes
+    /// The future reports, with their times; of several with one time, the first entered comes
     /// first.
     later: BinaryHeap<Reverse<(Time, u64, usize)>>,
     reports: Vec<Option<Report>>,
@@ -41,7 +41,7 @@ impl Reporter {
             for (period, (actual, forecast)) in scenario.demand.iter().zip(forecast).enumerate() {
                 let pairs = changed_pairs(actual, forecast);
                 if !pairs.is_empty() {
-                    // What comes after the last decision is told right after it.
+                    // Periods that begin after the last decision are reported right after it.
                     let (start, end) = (scenario.operations.start, scenario.operations.end);
                     let begins = scenario.periods[period].max(start).min(end + 1);
                     reporter.report(begins, Report::Demand { period, pairs });
@@ -103,7 +103,7 @@ impl Reporter {
                 return None;
             }
             self.later.pop();
-            // What was taken back is not reported.
+            // A report that was taken back is skipped.
             if let Some(report) = self.reports[at].take() {
                 return Some((time, report));
             }
@@ -121,9 +121,9 @@ impl Reporter {
         Ok(())
     }
 
-    /// Carries out what people have decided for an aircraft at a time, in whatever order they
-    /// decide and whatever the rules of the simulated day say: they may know of things that it does
-    /// not. Returns where the aircraft stood.
+    /// Carries out what people have decided for an aircraft at a time, in any order and even
+    /// against the rules of the simulated day, because people may have information that the
+    /// simulation lacks. Returns where the aircraft stood.
     ///
     /// # Errors
     /// Returns [`Refusal::NoSuchVertiport`].
@@ -166,7 +166,7 @@ impl Reporter {
         self.set_ready(aircraft, ready);
     }
 
-    /// Says when an aircraft is ready, where people know it better.
+    /// Sets when an aircraft is ready, where people have better information.
     pub fn set_ready(&mut self, aircraft: AircraftIx, ready: Time) {
         self.day.queue.set(aircraft, ready);
     }

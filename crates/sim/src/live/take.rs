@@ -1,4 +1,4 @@
-//! Takes reports in: each is checked, and then changes what is known.
+//! Accepts reports: each is checked, and then changes what is known.
 
 mod closures_and_demand;
 mod flights;
@@ -9,21 +9,21 @@ use super::report::{Notice, Report, ReportError};
 use super::{Before, LiveAircraft, LiveDay, LiveDecision, OutOfService, Phase};
 use crate::TraceRow;
 
-/// A report that moves the clock on further must say that it means to.
+/// The longest step by which a report may move the day on, except for one of the clock.
 const LONGEST_STEP_S: u32 = 4 * 3_600;
 
 impl LiveDay {
-    /// Whether a report may be a slip of the pen: it lies hours after everything that the day has
-    /// heard of, something that it tells was over before, a flight landed before it departed, or a
-    /// hold is taken back when nothing can be decided in its place any more. Since the clock never
-    /// runs back, the first does harm that cannot be undone.
+    /// Refuses a report that is probably a mistake: its time is hours after all others, what it
+    /// reports was over before, a flight landed before it departed, or a hold is taken back when
+    /// nothing can be decided in its place any more. Since the clock never runs back, a time that
+    /// is too late does harm that cannot be undone.
     ///
     /// # Errors
     /// Returns [`ReportError::TooFarAhead`], [`ReportError::AfterTheDay`],
     /// [`ReportError::Backwards`], [`ReportError::BeforeDeparture`] or [`ReportError::Over`].
     pub fn check_times(&self, time: Time, report: &Report) -> Result<(), ReportError> {
         match *report {
-            // The clock itself may jump, but not to where no aircraft of the day is any more.
+            // The clock itself may jump, but not to a time when all aircraft of the day are done.
             Report::Clock => {
                 let latest = self.now.max(self.scenario().operations.end);
                 if time > latest + LONGEST_STEP_S {
@@ -70,10 +70,10 @@ impl LiveDay {
     }
 
     /// Takes a report in. `time` is when it happened; reports may come late, but the day's clock
-    /// never runs back. Returns what people should look at.
+    /// never runs back. Returns the notices for people.
     ///
     /// # Errors
-    /// Returns an [`ReportError`] if the report makes no sense or is a decision that breaks a rule.
+    /// Returns a [`ReportError`] if the report makes no sense or is a decision that breaks a rule.
     /// Nothing has changed then.
     pub fn take(&mut self, time: Time, report: &Report) -> Result<Vec<Notice>, ReportError> {
         let mut notices = Vec::new();
@@ -189,8 +189,8 @@ impl LiveDay {
         }
     }
 
-    /// Enters a decision that the simulator has carried out. Of the pair, so many were `waiting`
-    /// before it.
+    /// Enters a decision that the simulator has carried out. `waiting` is the number of passengers
+    /// of the pair who waited before it.
     fn enter(&mut self, row: TraceRow, before: Before, waiting: u32) {
         let (period, flight) = (self.known.period, self.decisions.len());
         let waited = u16::try_from(waiting).map_or(row.passengers, |all| all.min(row.passengers));

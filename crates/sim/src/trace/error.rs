@@ -109,7 +109,7 @@ impl Coded for TraceError {
         match self {
             Self::Core(error) => error.hint(),
             Self::UnknownId { .. } => Some("a trace belongs to the scenario that it was made from"),
-            // Traces differ in nothing but the last column.
+            // Traces differ only in the last column.
             Self::WrongHeader { expected, found, .. }
                 if expected.starts_with(found.as_str()) || found.starts_with(expected.as_str()) =>
             {

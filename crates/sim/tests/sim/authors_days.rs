@@ -1,7 +1,7 @@
 //! Replays days of the paper's authors' public environment, aircraft by aircraft. With the authors'
 //! rules as settings, the simulator sells the same tickets and earns the same profit.
 //!
-//! The days lie outside the repository, in `../shared/data` beside it (repository
+//! The days lie outside the repository, in `../shared/data` next to it (repository
 //! `iamstevepaul/UAM_fleet_Scheduling`, its first 20 committed test days, each played once with
 //! feasible random decisions). Where they are absent there is nothing to compare, and the test
 //! prints that. `networks/as-coded.toml` has the same settings.
@@ -81,7 +81,7 @@ struct Replayed {
 
 /// Lets every aircraft take its own decisions in their order, when our clock asks it. Where two
 /// decisions have changed places, so that one of them frees a charger too late for the other, the
-/// error says at which vertiport and when.
+/// error states at which vertiport and when.
 fn replay(day: &Value, scenario: &Arc<Scenario>) -> Result<Replayed, (VertiportIx, Time)> {
     let mut moves: Vec<VecDeque<(usize, Move)>> = vec![VecDeque::new(); scenario.aircraft.len()];
     for (order, one) in list(&day["moves"]).iter().enumerate() {

@@ -237,7 +237,7 @@ fn the_report_reads_well() {
     row 3, 06:53:00, aircraft A2: makes 2 aircraft at V3 or on their way there, but its stands are 1 [stand-bound]
     row 4, 07:35:00, aircraft A1: arrives 07:35:00, ready 07:51:00, but a hold from now on is over at 07:50:00 [hold-time]
     07:51:00, aircraft A1: ready no later than 08:00:00, the end of operations, but row 4 is its last [missing-decision]
-    worked out anew: decisions 4, flights 3 (without passengers 0), holds 1, passengers 10
+    recomputed: decisions 4, flights 3 (without passengers 0), holds 1, passengers 10
     profit $191.90 = revenue $440.00 - passenger cost $221.00 - energy cost $27.10 (113.00 kWh)
     "#);
 }

@@ -48,7 +48,7 @@ fn in_round_numbers(day: &Arc<Scenario>) -> Arc<Scenario> {
     Arc::new(day.check("day in round numbers").expect("a day within the rules"))
 }
 
-/// The day with every distance at the end of the first type's range but for `off` millionths of a
+/// The day with every distance at the end of the first type's range, plus `off` millionths of a
 /// mile.
 fn at_the_end_of_the_range(day: &Arc<Scenario>, off: &[f64]) -> Arc<Scenario> {
     let mut day = Scenario::clone(day).into_day();
@@ -142,7 +142,7 @@ fn carry_out(edit: Edit, day: &Scenario, rows: &mut Vec<TraceRow>, at: usize) ->
     true
 }
 
-/// Whether two sums are equal but for the order of their terms.
+/// Whether two sums are equal apart from the order of their terms.
 fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * a.abs().max(b.abs()).max(1.0)
 }

@@ -23,7 +23,7 @@ fn refused(csv: impl AsRef<[u8]>) -> String {
 }
 
 #[test]
-fn a_trace_reads_as_the_files_page_says() {
+fn a_trace_reads_as_the_files_page_states() {
     insta::assert_snapshot!(schedule().to_csv(&scenario()), @r#"
     time,aircraft,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,arrival,ready
     06:00:00,A1,V1,V3,4,200,104,45,9,06:50:00,07:35:00
@@ -73,7 +73,7 @@ fn a_written_trace_reads_back_and_replaces_the_file_before_it() {
     schedule().write(&scenario(), &path).expect("a place to write");
     assert_eq!(Trace::read(&path, &scenario()).expect("a trace"), schedule());
     let files = std::fs::read_dir(folder.path()).expect("the folder").count();
-    assert_eq!(files, 1, "nothing is left beside the trace");
+    assert_eq!(files, 1, "nothing is left next to the trace");
 }
 
 #[test]

@@ -167,8 +167,8 @@ proptest! {
                 let exists = choice.at() < day.vertiports.len();
                 assert_eq!(matches!(refusal, Refusal::NoSuchVertiport { .. }), !exists);
                 let id = day.vertiports.get(choice.at()).map(|to| format!("{:?}", to.id));
-                let said = refusal.to_string();
-                assert!(id.is_none_or(|id| said.contains(&id)), "{said}");
+                let message = refusal.to_string();
+                assert!(id.is_none_or(|id| message.contains(&id)), "{message}");
             }
         });
     }

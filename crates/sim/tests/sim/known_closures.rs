@@ -41,7 +41,7 @@ fn imagined_days_carry_out_known_closures_and_leave_unknown_ones_as_they_are() {
         (vec![(1800, 1800, false)], "..xx....", "........"),
         (vec![(0, 1800, true)], "xx......", "xx......"),
         (vec![(0, 1800, false)], "xx......", "xxxxxxxx"),
-        // An unknown closure that is in force lasts on imagined days, even beside a known one that
+        // An unknown closure that is in force lasts on imagined days, even next to a known one that
         // ends.
         (vec![(0, 1800, false), (0, 3600, true)], "xxxx....", "xxxxxxxx"),
         (vec![(0, 900, true), (900, 900, true), (1000, 900, false)], "xxx.....", "xx......"),

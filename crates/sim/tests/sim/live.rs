@@ -1,5 +1,5 @@
-//! Live days: told what happens, they are the simulated day; told anything else, they keep every
-//! rule that reality does.
+//! Live days: with the reports of a simulated day they are that day, and with any other reports
+//! they keep every rule that reality does.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -13,8 +13,8 @@ use vertifleet_sim::Simulation;
 use vertifleet_sim::live::{Booking, LiveDay, Phase, Report, ReportError, Reporter, Routes};
 use vertifleet_testkit::{extended_day, paper_day};
 
-/// Plays a day by a rule and tells it to a live day. At every decision both show the same.
-fn told(day: &Arc<Scenario>, draws: &[u32]) -> (Simulation, LiveDay) {
+/// Plays a day by a rule and reports it to a live day. At every decision both show the same.
+fn simulated_and_live(day: &Arc<Scenario>, draws: &[u32]) -> (Simulation, LiveDay) {
     let mut simulation = Simulation::new(Arc::clone(day));
     let mut reporter = Reporter::new(day);
     let mut live = LiveDay::new(Arc::clone(day));
@@ -48,10 +48,10 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
     #[test]
-    fn a_live_day_that_is_told_a_simulated_day_is_that_day(
+    fn a_live_day_with_the_reports_of_a_simulated_day_is_that_day(
         day in extended_day(), draws in prop::collection::vec(any::<u32>(), 30)
     ) {
-        let (simulation, mut live) = told(&day, &draws);
+        let (simulation, mut live) = simulated_and_live(&day, &draws);
         prop_assert_eq!(live.totals(), simulation.totals());
         prop_assert!(live.aircraft().all(|aircraft| aircraft.phase == Phase::Standing));
     }
@@ -144,7 +144,7 @@ fn all_of(live: &LiveDay) -> String {
     format!("{states:?} {notices:?} {totals:?} {trace:?} {left:?} {boarded:?} {taken:?}")
 }
 
-/// What holds on every live day, whatever was reported.
+/// Properties of every live day, after any reports.
 fn check(live: &mut LiveDay) {
     let states: Vec<_> = live.aircraft().collect();
     let view = live.view();
@@ -173,7 +173,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
     #[test]
-    fn whatever_is_reported_a_live_day_stays_sound(
+    fn a_live_day_stays_sound_after_any_reports(
         day in extended_day(),
         reports in prop::collection::vec((0..900_u32, any_report()), 1..60),
     ) {

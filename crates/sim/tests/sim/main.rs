@@ -1,4 +1,4 @@
-//! What the simulator and the checker of schedules promise.
+//! The guarantees of the simulator and of the checker of schedules.
 
 mod authors_days;
 mod check_day;

@@ -47,7 +47,7 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
             for to in VertiportIx::all(view.vertiports()) {
                 let profit = view.flight_profit_usd(decision.time + 3600, kind, (from, to), 3);
                 let leg = view.leg(kind, from, to);
-                // What is looked up once for all destinations is what each of them is told.
+                // A lookup for all destinations at once gives the same as one for each.
                 assert_eq!(departures.profit_usd(to, 3).to_bits(), profit.to_bits());
                 assert_eq!(departures.block_s(to), leg.block_s());
                 shown.push(format!("{leg:?} {profit}"));
@@ -65,12 +65,12 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         shown.push(format!("{:?}", view.demand_left_in(period)));
     }
     shown.push(played_out(view));
-    // What is looked at later is what it was.
+    // A snapshot that is read later is unchanged.
     assert_eq!(played_out(view.snapshot().view()), shown[shown.len() - 1]);
     shown
 }
 
-/// While departures say that profits are steady, they are.
+/// While departures report steady profits, profits are steady.
 fn assert_profits_are_steady(
     view: View<'_>,
     departures: Departures<'_>,

@@ -127,8 +127,8 @@ fn flights(day: &Arc<Scenario>, decided_s: &[u32]) -> Vec<(u32, u16, f64)> {
 
 #[test]
 fn those_who_have_waited_board_first_and_all_pay_the_fare_of_the_decision() {
-    // 6 wait beside 3. The first flight takes 4 of the 6, so all of the 3 are there when the others
-    // have left.
+    // 6 wait and 3 are new. The first flight takes 4 of the 6, so all of the 3 are there when the
+    // others have left.
     assert_eq!(flights(&day(600), &[HOUR, HOUR + 600]), [(9, 4, 80.0), (3, 3, 60.0)]);
     // Two of the 6 are left, and board before two of the 3.
     assert_eq!(
@@ -183,7 +183,7 @@ fn a_schedule_that_leaves_those_who_wait_behind_or_takes_those_who_have_left_bre
     assert_eq!(broken(0, HOUR, 4), ["demand"]);
 }
 
-/// Who still wants to fly, by the period in which each is counted.
+/// The passengers who still want to fly, by the period in which each is counted.
 fn left(live: &mut LiveDay) -> [u32; 3] {
     let view = live.view();
     [0, 1, 2].map(|period| view.demand_left(period, A, B))
@@ -193,7 +193,7 @@ fn boarded(live: &LiveDay) -> [u32; 3] {
     [0, 1, 2].map(|period| live.boarded_in(period)[1])
 }
 
-fn tell(live: &mut LiveDay, seconds: u32, report: &Report) {
+fn report_at(live: &mut LiveDay, seconds: u32, report: &Report) {
     live.take(time(seconds), report).expect("a report that fits");
 }
 
@@ -205,16 +205,16 @@ fn decided() -> Report {
 fn a_flight_that_is_undone_in_the_next_period_lets_its_passengers_wait_there() {
     let undone = Report::Undone { aircraft: AircraftIx(0) };
     let mut live = LiveDay::new(day(600));
-    tell(&mut live, HOUR - 60, &decided());
+    report_at(&mut live, HOUR - 60, &decided());
     assert_eq!((left(&mut live), boarded(&live)), ([2, 3, 1], [4, 0, 0]));
-    tell(&mut live, HOUR + 10, &undone);
+    report_at(&mut live, HOUR + 10, &undone);
     assert_eq!((left(&mut live), boarded(&live)), ([0, 9, 1], [0, 0, 0]));
-    tell(&mut live, HOUR + 20, &decided());
+    report_at(&mut live, HOUR + 20, &decided());
     assert_eq!((left(&mut live), boarded(&live)), ([0, 5, 1], [4, 0, 0]));
     // The four who had waited leave with the two who wait; they cannot be carried any more.
-    tell(&mut live, HOUR + 600, &Report::Clock);
+    report_at(&mut live, HOUR + 600, &Report::Clock);
     assert_eq!(left(&mut live), [2, 3, 1]);
-    tell(&mut live, HOUR + 600, &undone);
+    report_at(&mut live, HOUR + 600, &undone);
     assert_eq!((left(&mut live), boarded(&live)), ([6, 3, 1], [0, 0, 0]));
     assert_eq!(live.totals().spilled_passengers, 10);
 }
@@ -232,10 +232,10 @@ fn those_who_had_waited_are_on_board_before_others_when_their_number_is_correcte
         (2, 1, 600, ([1, 3, 1], [1, 0, 0])),
     ] {
         let mut live = LiveDay::new(day(600));
-        tell(&mut live, 0, &Report::Demand { period: 0, pairs: vec![(A, B, demand)] });
-        tell(&mut live, HOUR, &decided());
-        tell(&mut live, HOUR + later, &Report::Clock);
-        tell(&mut live, HOUR + later, &departed(Some(on_board)));
+        report_at(&mut live, 0, &Report::Demand { period: 0, pairs: vec![(A, B, demand)] });
+        report_at(&mut live, HOUR, &decided());
+        report_at(&mut live, HOUR + later, &Report::Clock);
+        report_at(&mut live, HOUR + later, &departed(Some(on_board)));
         assert_eq!((left(&mut live), boarded(&live)), expected);
         let totals = live.totals();
         assert_eq!(totals.passengers, u64::from(on_board));
@@ -249,14 +249,14 @@ fn reports_of_demand_count_the_passengers_of_a_period_and_not_those_who_wait_in_
     let report = Report::Demand { period: 1, pairs: vec![(A, B, 5)] };
     for (begun, reported) in [(HOUR - 1, HOUR - 1), (HOUR - 1, HOUR), (HOUR, HOUR)] {
         let mut live = LiveDay::new(day(600));
-        tell(&mut live, begun, &Report::Clock);
-        tell(&mut live, reported, &report);
-        tell(&mut live, HOUR, &Report::Clock);
+        report_at(&mut live, begun, &Report::Clock);
+        report_at(&mut live, reported, &report);
+        report_at(&mut live, HOUR, &Report::Clock);
         assert_eq!(left(&mut live), [0, 11, 1]);
         let late = Report::Demand { period: 0, pairs: vec![(A, B, 2)] };
-        tell(&mut live, HOUR + 599, &late);
+        report_at(&mut live, HOUR + 599, &late);
         assert_eq!(left(&mut live), [0, 7, 1]);
-        tell(&mut live, HOUR + 600, &Report::Clock);
+        report_at(&mut live, HOUR + 600, &Report::Clock);
         assert_eq!(left(&mut live), [2, 5, 1]);
     }
 }
@@ -266,24 +266,24 @@ fn passengers_who_wait_may_cancel_until_they_have_left() {
     let of = |period, passengers| Booking { period, from: A, to: B, passengers };
     let cancelled = |period, passengers| Report::Cancelled { booking: of(period, passengers) };
     let mut live = LiveDay::new(day(600));
-    tell(&mut live, HOUR, &Report::Clock);
-    tell(&mut live, HOUR, &cancelled(0, 2));
-    tell(&mut live, HOUR, &Report::Booked { booking: of(1, 2) });
+    report_at(&mut live, HOUR, &Report::Clock);
+    report_at(&mut live, HOUR, &cancelled(0, 2));
+    report_at(&mut live, HOUR, &Report::Booked { booking: of(1, 2) });
     assert_eq!(left(&mut live), [0, 9, 1]);
     let too_many = live.take(time(HOUR), &cancelled(1, 6));
     assert_eq!(too_many, Err(ReportError::TooFewPassengers { cancelled: 6, left: 5 }));
-    tell(&mut live, HOUR + 600, &Report::Clock);
+    report_at(&mut live, HOUR + 600, &Report::Clock);
     let over = live.take(time(HOUR + 600), &cancelled(0, 1));
     assert_eq!(over, Err(ReportError::PeriodOver { start: time(0), now: time(HOUR + 600) }));
 }
 
 #[test]
-fn what_is_left_of_a_day_has_those_who_wait_in_the_period_before() {
+fn the_rest_of_a_day_has_those_who_wait_in_the_period_before() {
     let mut live = LiveDay::new(day(600));
-    tell(&mut live, HOUR - 60, &decided());
+    report_at(&mut live, HOUR - 60, &decided());
     for (seconds, demand) in [(HOUR, [2, 3, 1]), (HOUR + 599, [2, 3, 1]), (HOUR + 600, [0, 3, 1])] {
-        tell(&mut live, seconds, &Report::Clock);
-        let rest = live.what_is_left().expect("a day").expect("some of it");
+        report_at(&mut live, seconds, &Report::Clock);
+        let rest = live.remaining_day().expect("a day").expect("some of it");
         assert_eq!([0, 1, 2].map(|period: usize| rest.day.demand[period][(A, B)]), demand);
         let mut day = Simulation::new(Arc::new(rest.day));
         day.next_decision().expect("the day goes on");

@@ -7,8 +7,8 @@
 
 use super::{Bought, Market, Part, compact};
 
-/// The most passengers of a cell for whom flights of several sizes are enumerated. More fill so
-/// many flights that fractions of flights make little difference.
+/// The most passengers of a cell for whom flights of several sizes are enumerated. With more, there
+/// are enough flights for fractions of flights to make little difference.
 pub(super) const MOST_ENUMERATED: u32 = 300;
 /// The same of two periods together where passengers wait, which takes time in proportion to the
 /// square. Enumerating the 80 of `paper` made its bound 15 times as slow and 0.05 % tighter.
@@ -25,7 +25,7 @@ struct Offers {
 }
 
 impl Offers {
-    /// Adds the cheapest flights with so many seats or more.
+    /// Adds the cheapest flights with at least this number of seats.
     fn flights_for(&self, mut seats: usize, bought: &mut Bought) {
         while seats > 0 {
             let cheapest = self.flights.iter().find(|&&(_, of_flight, price)| {
@@ -41,7 +41,7 @@ impl Offers {
     }
 }
 
-/// What passengers of a cell do.
+/// The choices of the passengers of a cell.
 #[derive(Debug, Clone, Copy, Default)]
 struct Choice {
     /// Those who board and have waited, and the others who board.

@@ -49,8 +49,8 @@ fn any_market(seed: u64, most_passengers: u64) -> (Market, Vec<i64>) {
     (market, prices)
 }
 
-/// The most that passengers from a period on can bring with so many flights of each price, if so
-/// many wait for it.
+/// The most that passengers from a period on can bring, by the number of flights of each price and
+/// the number of passengers who wait for the period.
 fn brought(market: &Market, flights: &[u32], period: usize, waiting: u32) -> i64 {
     let Some(&own) = market.passengers.get(period) else { return 0 };
     let classes = market.seats.len();

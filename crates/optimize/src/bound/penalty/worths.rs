@@ -70,7 +70,7 @@ fn slots_s(day: &TimeExpandedDay, delays: &TakeoffDelays) -> Vec<u32> {
     (0..day_s).step_by(delays.slot_s as usize).chain([day_s]).collect()
 }
 
-/// The types of a fleet; aircraft with an outage are no type of their own.
+/// The types of a fleet; aircraft with an outage are no separate type.
 fn kinds(day: &TimeExpandedDay) -> Vec<TypeIx> {
     let mut kinds: Vec<TypeIx> = day.layers.iter().map(|layer| layer.kind).collect();
     kinds.dedup();

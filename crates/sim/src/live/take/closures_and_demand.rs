@@ -54,15 +54,15 @@ impl LiveDay {
     }
 
     /// Makes all closures known whose end is.
-    fn announce(&mut self, time: Time, told: &[(VertiportIx, VertiportIx)]) {
+    fn announce(&mut self, time: Time, reported: &[(VertiportIx, VertiportIx)]) {
         let (now, size) = (self.now.max(time), self.scenario().vertiports.len());
-        self.known.closures.announce(&self.closures, told, now, size);
+        self.known.closures.announce(&self.closures, reported, now, size);
         self.known.eventful = true;
         self.forget();
     }
 
-    /// Makes the day another one for policies that remember it, because what they remember no
-    /// longer holds: they read stands and known closures once a day.
+    /// Makes policies treat the day as a new one, because what they keep of it no longer holds:
+    /// they read stands and known closures once a day.
     pub(super) fn forget(&mut self) {
         self.known.scenario = Arc::new(Scenario::clone(&self.known.scenario));
     }

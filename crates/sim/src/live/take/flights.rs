@@ -54,10 +54,10 @@ impl LiveDay {
         Ok(())
     }
 
-    /// Why an aircraft should not have departed, whatever its flight.
+    /// Why an aircraft should not have departed on any flight.
     fn not_ready(&self, aircraft: AircraftIx, time: Time) -> Option<Notice> {
         let LiveAircraft { phase, charged, out, .. } = self.aircraft[aircraft.at()];
-        // An aircraft that was sent off may depart, whatever has happened since.
+        // An aircraft that was sent off may depart, even if things have changed since.
         if phase != Phase::Standing {
             return None;
         }
@@ -88,7 +88,7 @@ impl LiveDay {
         }
     }
 
-    /// Sends an aircraft off that has departed without a decision of ours, whatever the rules say.
+    /// Sends an aircraft off that has departed without a decision of ours, even against the rules.
     fn send_off(&mut self, aircraft: AircraftIx, time: Time, to: VertiportIx) -> Option<Notice> {
         let time = time.max(self.now);
         let at = self.known.place[aircraft.at()];
@@ -116,7 +116,7 @@ impl LiveDay {
         let demand = &mut self.known.demand;
         let waiting = match demand.waiting_in() {
             Some(now) if now == period => demand.waiting(pair.0, pair.1),
-            // They have left by now, but for those who are on board.
+            // They have left by now, except for those who are on board.
             _ => waited.into(),
         };
         let waited = u16::try_from(waiting).map_or(passengers, |all| all.min(passengers));

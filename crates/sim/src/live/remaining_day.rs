@@ -1,11 +1,11 @@
-//! What is left of a live day, as a day of its own: for a bound of what it can still earn.
+//! The rest of a live day as a scenario, for a bound on what it can still earn.
 
 use vertifleet_core::{Closure, Error, Matrix, Route, Scenario, Time, VertiportIx};
 
 use super::LiveDay;
 
-/// What is known of the rest of a day. A schedule of it earns what the flights earn that
-/// are still to be decided.
+/// The known rest of a day. A schedule of it earns what the flights earn that are still to be
+/// decided.
 #[derive(Debug, Clone)]
 pub struct RemainingDay {
     /// The day from now on: who still wants to fly, and every aircraft at the vertiport where it
@@ -17,12 +17,12 @@ pub struct RemainingDay {
 }
 
 impl LiveDay {
-    /// What is left of the day; `None` if no decision can be taken any more.
+    /// The rest of the day; `None` if no decision can be taken any more.
     ///
     /// # Errors
     /// Returns an error if what has been reported does not make a day, such as closures beyond the
     /// bounds of the format.
-    pub fn what_is_left(&mut self) -> Result<Option<RemainingDay>, Error> {
+    pub fn remaining_day(&mut self) -> Result<Option<RemainingDay>, Error> {
         let now = self.now;
         if now >= self.scenario().operations.end {
             return Ok(None);
