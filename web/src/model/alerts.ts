@@ -1,5 +1,5 @@
-// What a dispatcher should look at now, each thing once: reports that are overdue, vertiports without room, closures, outages, flights
-// that land with little charge, and what came with events.
+// The alerts for a dispatcher, each listed once: overdue reports, full vertiports, closures,
+// outages, flights that land with little charge, and notices that came with events.
 
 import type { DayState, TakenEvent } from '../api/types'
 import { minutesOverdue } from './awaited'
@@ -13,7 +13,7 @@ import { timeOf } from './time'
 export const SEVERITIES = ['critical', 'warning', 'notice'] as const
 export type Severity = (typeof SEVERITIES)[number]
 
-/** What an alert is about. Ids are those of the day. */
+/** The subject of an alert. Ids are those of the day. */
 export type Matter =
   | { kind: 'overdue'; aircraft: string; to: string; report: 'departure' | 'landing'; due: Seconds }
   | { kind: 'over_full' | 'full'; vertiport: string; taken: number; stands: number }
@@ -23,19 +23,19 @@ export type Matter =
   | { kind: 'said'; words: string }
 
 export interface Alert {
-  /** The same for the same thing, so that it can be acknowledged once. */
+  /** The same for every alert about the same subject, so that it is acknowledged only once. */
   key: string
   severity: Severity
   matter: Matter
-  /** Since when it has been so, if that is known. */
+  /** The time since which the alert holds, if known. */
   since: Seconds | undefined
-  /** What to look at. */
+  /** The object that the alert selects. */
   target: Target | undefined
 }
 
-/** A report that has been missing for so long is critical. */
+/** A report that has been missing for this long is critical. */
 const LONG_OVERDUE_MIN = 15
-/** A flight that lands with a smaller share of its battery is worth a look. */
+/** A flight that lands with a smaller share of its battery raises an alert. */
 const LOW_CHARGE = 0.1
 
 interface Sources {
@@ -46,7 +46,7 @@ interface Sources {
   time: Seconds
 }
 
-/** All alerts of a moment, the most severe first, and of these what has been so for longest. */
+/** All alerts at one time, the most severe first; equally severe ones by age, the oldest first. */
 export function alertsOf(sources: Sources): Alert[] {
   const legs = sources.record.legs.filter((leg) => !leg.is_expected)
   const found = [
@@ -145,7 +145,10 @@ function lowCharge(leg: LegRecord, { record, scenario }: Sources): Alert[] {
   ]
 }
 
-/** What the service says: what came with events, and of what holds now only what no other alert is about. */
+/**
+ * Notices of the service: all that came with events. Of the current ones, those that no other alert
+ * covers.
+ */
 function said({ state, events, record }: Sources, found: readonly Alert[]): Alert[] {
   const known = new Set(found.map(({ matter }) => aboutOf(matter)))
   return state.notices.flatMap(({ seq, text }): Alert[] => {
@@ -166,7 +169,7 @@ function said({ state, events, record }: Sources, found: readonly Alert[]): Aler
   })
 }
 
-/** The aircraft or vertiport that is overdue or over-full, of which the service says so too. */
+/** The aircraft or vertiport of an overdue or over-full alert, which the service reports too. */
 function aboutOf(matter: Matter): string | undefined {
   if (matter.kind === 'overdue') return matter.aircraft
   return matter.kind === 'over_full' ? matter.vertiport : undefined

@@ -1,12 +1,12 @@
-// Access to arrays at positions that are known to exist. TypeScript asks for a check at every access otherwise, and pictures
-// read some thousand numbers a frame.
+// Access to arrays at positions that are known to exist. TypeScript would require a check at every
+// access, and pictures read some thousand numbers a frame.
 
 /** The element at a position that exists. */
 export function at<T>(array: ArrayLike<T>, index: number): T {
   return array[index] as T
 }
 
-/** How many of the first `size` sorted values, from `offset` on, are no greater than a value. */
+/** How many of the first `size` sorted values, from `offset` on, are at most a value. */
 export function countUpTo(
   values: ArrayLike<number>,
   value: number,
@@ -22,7 +22,7 @@ export function countUpTo(
   return low
 }
 
-/** The elements of a list by what they have in common, in the order of the list. */
+/** Groups the elements of a list by a key, in the order of the list. */
 export function grouped<T, K>(list: readonly T[], keyOf: (one: T) => K): Map<K, T[]> {
   const groups = new Map<K, T[]>()
   for (const one of list) {

@@ -9,7 +9,8 @@ import { Fleet, NONE, Phase } from './motion'
 import type { DayRecord, LegRecord } from './record'
 import { clock, timeOf } from './time'
 
-// At 06:47 A02 is in the air to South, due at 06:54:06, and A03 has been sent off from East to North and has not departed.
+// At 06:47 A02 is in the air to South, due at 06:54:06. A03 has been sent from East to North and
+// has not departed.
 const [a02, a03, a05] = [1, 2, 4]
 const late = timeOf('07:15:00')
 
@@ -24,12 +25,12 @@ function legsOf({ legs }: DayRecord, aircraft: number) {
   return legs.filter((leg) => leg.aircraft === aircraft)
 }
 
-/** The flight that an aircraft is sent off on. */
+/** The flight of an aircraft that has been decided and has not landed. */
 function underWay(day: DayRecord, aircraft: number): LegRecord {
   return only(legsOf(day, aircraft).findLast((leg) => !leg.is_expected))
 }
 
-/** Where and how long after a time an aircraft is expected to go. */
+/** The route of each expected leg of an aircraft, and its departure relative to a time. */
 function expectedOf(day: DayRecord, aircraft: number, since: number): number[][] {
   const expected = legsOf(day, aircraft).filter((leg) => leg.is_expected)
   return expected.map(({ to, decided }) => [to, decided - since])
@@ -53,7 +54,7 @@ function distance(
   return Math.hypot(x2 - x1, y2 - y1)
 }
 
-/** What a frame has of an aircraft of the day as it was reported. */
+/** The frame's values of one aircraft on the day as reported. */
 function shown(time: number, aircraft: number, day = happened) {
   const fleet = new Fleet(day)
   const frame = fleet.frame()
@@ -163,7 +164,7 @@ describe('a day on which several reports are late', () => {
   it('does not let what is expected begin before it can', () => {
     for (const aircraft of [a02, a03]) {
       const { ready } = underWay(day, aircraft)
-      // They go the same ways, as far apart as they were.
+      // The same routes, at the same intervals.
       expect(expectedOf(day, aircraft, ready)).toEqual(
         expectedOf(record, aircraft, underWay(record, aircraft).ready),
       )

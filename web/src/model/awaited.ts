@@ -1,41 +1,52 @@
-// What a live day still waits to hear of: a departure or a landing that is due and has not been reported. What is not reported has
-// not happened, so its time is the later of planned and now, and everything that follows from it moves with it. The service's own
-// outlook is made by the same rule (`LiveDay::expect_from` in crates/sim/src/live.rs).
+// Reports that a live day awaits: a departure or a landing that is due and has not been reported.
+// Without a report an event has not happened, so its time is the later of planned and now. All
+// later events of the aircraft move with it. The service's outlook follows the same rule
+// (`LiveDay::expect_from` in crates/sim/src/live.rs).
 
 import type { AircraftState, DayState } from '../api/types'
 import type { DayRecord, LegRecord, Seconds } from './record'
 import { clock, timeOf } from './time'
 
-/** An aircraft that should have departed or landed so long ago is overdue: `LATE_S` of the service, which gives a notice then. */
+/**
+ * An aircraft is overdue this long after its due departure or landing: `LATE_S` of the service,
+ * which then sends a notice.
+ */
 const OVERDUE_S = 300
-/** Pictures of the whole day move on once in this time. */
+/** Pictures of the whole day are updated at this interval. */
 const STEP_S = 60
 
-/** When a leg does what is awaited of it, as far as its record has moved on. */
+/** The time of a leg's awaited departure or landing, as its record currently has it. */
 function expectedAt({ awaited, departs, arrives }: LegRecord): Seconds {
   return awaited?.report === 'departure' ? departs : arrives
 }
 
-/** How long a leg has waited for its report at a time, by which all that follows is late; 0 if the report is not due yet. */
+/**
+ * How long a leg has waited for its report at a time, which delays all later legs; 0 if the report
+ * is not due yet.
+ */
 export function latenessOf(leg: LegRecord, time: Seconds): Seconds {
   return leg.awaited === undefined ? 0 : Math.max(0, time - expectedAt(leg))
 }
 
-/** Whole minutes by which a leg is overdue at a time, or as far as its record has moved on; 0 if it is not. All pictures and lists of a
- *  minute have the same number. */
+/**
+ * Whole minutes by which a leg is overdue at a time, by default the time of its record; 0 if it is
+ * not. All pictures and lists of a minute have the same number.
+ */
 export function minutesOverdue(leg: LegRecord, time = expectedAt(leg)): number {
   if (leg.awaited === undefined) return 0
   const late_s = endOfMinute(time) - leg.awaited.due
   return late_s > OVERDUE_S ? Math.floor(late_s / 60) : 0
 }
 
-/** The end of the minute in which a time lies: what is awaited then has not happened before it. */
+/** The end of the minute that contains a time. Awaited events have not happened before it. */
 export function endOfMinute(time: Seconds): Seconds {
   return Math.ceil(time / STEP_S) * STEP_S
 }
 
-/** The day as it stands in the minute of a time: what is awaited has not happened in it, and what is only expected of an aircraft
- *  begins neither before the minute nor before the aircraft is ready. */
+/**
+ * The day as it stands in the minute of a time. Awaited events have not happened in it. Expected
+ * legs begin neither before the minute nor before the aircraft is ready.
+ */
 export function recordAt(record: DayRecord, time: Seconds): DayRecord {
   const now = endOfMinute(time)
   const [readyAt, movedBy] = [new Map<number, Seconds>(), new Map<number, Seconds>()]
@@ -47,7 +58,10 @@ export function recordAt(record: DayRecord, time: Seconds): DayRecord {
   if (legs.every((leg, index) => leg === record.legs[index])) return record
   return { ...record, legs: legs.sort((one, other) => one.decided - other.decided) }
 
-  /** All that is expected of an aircraft moves on by as much as its first leg has to: the legs follow from each other. */
+  /**
+   * All expected legs of an aircraft are delayed by as much as its first one, because each follows
+   * from the previous.
+   */
   function delayOf({ aircraft, decided }: LegRecord): Seconds {
     const known = movedBy.get(aircraft)
     if (known !== undefined) return known
@@ -57,7 +71,10 @@ export function recordAt(record: DayRecord, time: Seconds): DayRecord {
   }
 }
 
-/** Another course of the same day, in which the same flights are under way and awaited. */
+/**
+ * Applies the awaited reports of a day to another course of it, in which the same flights are under
+ * way.
+ */
 export function awaitedLike(record: DayRecord, day: DayRecord): DayRecord {
   const underWay = day.legs.filter((leg) => leg.awaited !== undefined)
   const legs = record.legs.map((leg) => {
@@ -69,7 +86,7 @@ export function awaitedLike(record: DayRecord, day: DayRecord): DayRecord {
   return { ...record, legs }
 }
 
-/** What a state says of its aircraft, with what is awaited of them moved on as in the record of the same day. */
+/** The aircraft of a state, with their awaited events moved as in the record of the same day. */
 export function aircraftAt({ aircraft }: DayState, record: DayRecord): AircraftState[] {
   const awaited = new Map(
     record.legs.flatMap((leg) =>

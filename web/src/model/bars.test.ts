@@ -5,7 +5,7 @@ import { roomOf, staysOf } from './occupancy'
 import type { DayRecord } from './record'
 import { clock, timeOf } from './time'
 
-/** Aircraft that stand at a vertiport, and those that are promised a stand there. */
+/** The numbers of aircraft that stand at a vertiport, and of those with a promised stand there. */
 function occupancyOf(record: DayRecord) {
   const stays = staysOf(record)
   const count = (is: (stay: (typeof stays)[number]) => boolean) => stays.filter(is).length

@@ -1,5 +1,5 @@
-// What the Gantts draw: for every aircraft its flights, charging, holds and outages, with what had been planned; for every stand
-// of a vertiport who holds it.
+// The rows of the Gantt charts. For every aircraft: flights, charging, holds and outages, with the
+// plan. For every stand of a vertiport: the aircraft that hold it.
 
 import { at } from './arrays'
 import { minutesOverdue } from './awaited'
@@ -13,19 +13,19 @@ export type BarKind = 'flight' | 'charge' | 'hold' | 'delay' | 'outage' | 'promi
 export interface Bar {
   kind: BarKind
   begins: Seconds
-  /** Infinity where it is not known. */
+  /** Infinity if unknown. */
   ends: Seconds
   aircraft: number
   /** Position in the record's legs, or NONE: an outage, or a stand before the first flight. */
   leg: number
-  /** The share of the seats that is taken, of flights. */
+  /** The load factor of a flight. */
   load: number
   isExpected: boolean
-  /** When the report of its end was due that is overdue; absent if none is. */
+  /** When the missing report of the bar's end was due; absent if it is not overdue. */
   overdueSince?: Seconds
 }
 
-/** What was planned for a flight, where something else has come of it. */
+/** The plan of a flight that went differently. */
 export interface Plan {
   departs: Seconds
   arrives: Seconds
@@ -35,16 +35,18 @@ export interface Plan {
 
 export interface FleetRow {
   aircraft: number
-  /** By their beginnings. */
+  /** Ordered by their beginnings. */
   bars: Bar[]
-  /** Drawn over the bars, since an aircraft may be charging or waiting while it is out of service. */
+  /**
+   * Drawn over the bars, because an aircraft may be charging or waiting while it is out of service.
+   */
   outages: Bar[]
   plans: Plan[]
 }
 
 export interface StandRow {
   vertiport: number
-  /** From 0; rows beyond the vertiport's room hold aircraft that have no stand. */
+  /** From 0; rows beyond the vertiport's stands hold aircraft that have no stand. */
   stand: number
   isOver: boolean
   bars: Bar[]
@@ -106,7 +108,10 @@ export function standRows(record: DayRecord): StandRow[] {
   })
 }
 
-/** Gives each stay the first stand that is free, and more stands than there are only if reports say that there are more aircraft. */
+/**
+ * Assigns each stay the first free stand. Rows beyond the existing stands are added only if reports
+ * place more aircraft there.
+ */
 function shareOut(stays: readonly Stay[], room: number): Stay[][] {
   const lanes: Stay[][] = Array.from({ length: room }, () => [])
   for (const stay of stays) {
@@ -133,7 +138,7 @@ function barsOf(stay: Stay, record: DayRecord): Bar[] {
   })
 }
 
-/** The outages of an aircraft as far as it stands here. */
+/** The outages of an aircraft during its stay. */
 function outagesOf({ aircraft, arrives, leaves, leg }: Stay, record: DayRecord): Bar[] {
   const own = record.outages.filter((outage) => outage.aircraft === aircraft)
   const within = own.map(({ since, until }) => ({

@@ -1,16 +1,17 @@
-// Which period the passengers of a day's flights come from. Who is not carried in the period of their demand waits into the next
-// one for `passenger_wait_s`, and a flight takes those who have waited first (docs/src/concepts/model.md).
+// Assigns the passengers of a day's flights to demand periods. Passengers who were not carried in
+// their period wait into the next one for `passenger_wait_s`. A flight carries those who have
+// waited first (docs/src/concepts/model.md).
 
 import { at, countUpTo } from './arrays'
 import type { DayRecord, LegRecord, Seconds } from './record'
 
-/** How many passengers of a flight wanted to fly in which period. */
+/** The number of a flight's passengers from each period. */
 export type Boarded = { period: number; passengers: number }[]
 
 /** Follows the flights of a day in the order of their decisions. */
 export class Boarding {
   readonly #size: number
-  /** Passengers who have not been carried, by period; in each by origin and destination. */
+  /** Passengers who have not been carried, by period, then by origin and destination. */
   readonly #left: Float64Array[]
 
   constructor(readonly record: DayRecord) {
@@ -23,7 +24,7 @@ export class Boarding {
     })
   }
 
-  /** Takes the passengers of the next decision, and tells where they come from. */
+  /** Boards the passengers of the next decision, and returns the periods they come from. */
   board({ decided, from, to, passengers }: LegRecord): Boarded {
     const pair = from * this.#size + to
     const boarded: Boarded = []
@@ -31,7 +32,7 @@ export class Boarding {
     const periods = this.periodsAt(decided)
     periods.forEach((period, index) => {
       const left = at(this.#left, period)
-      // A day that is not over may have carried more than was forecast.
+      // A day that is not over may have carried more passengers than the forecast has.
       const taken = index === periods.length - 1 ? room : Math.min(room, at(left, pair))
       left[pair] = Math.max(0, at(left, pair) - taken)
       room -= taken
@@ -40,7 +41,10 @@ export class Boarding {
     return boarded
   }
 
-  /** The periods whose passengers can be carried at a time, the earlier first; before the first period there is none. */
+  /**
+   * The periods whose passengers can be carried at a time, the earlier first; none before the first
+   * period.
+   */
   periodsAt(time: Seconds): number[] {
     const period = countUpTo(this.record.periods, time) - 1
     if (period < 0) return []
@@ -48,7 +52,7 @@ export class Boarding {
     return period > 0 && time < gone ? [period - 1, period] : [period]
   }
 
-  /** Calls a function with each pair whose passengers wait at a time, and how many they are. */
+  /** Calls a function for each pair with waiting passengers at a time, with their number. */
   forEachWaiting(time: Seconds, call: (from: number, to: number, passengers: number) => void): void {
     const tables = this.periodsAt(time).map((period) => at(this.#left, period))
     for (let pair = 0; pair < this.#size ** 2; pair++) {

@@ -1,10 +1,11 @@
-// How many aircraft hold the stands of each vertiport, fly, and are overdue. The map and the lists beside it all count with this.
+// Counts the aircraft that hold stands of each vertiport, that fly, and that are overdue. The map
+// and the lists next to it share these counts.
 
 import { at } from './arrays'
 import { NONE, Phase, type FleetFrame } from './motion'
 import type { DayRecord } from './record'
 
-/** What holds a stand, in the order in which the pieces of a ring follow each other. */
+/** The states of a stand, in the order of the pieces of a ring. */
 export const StandState = {
   waiting: 0,
   holding: 1,
@@ -15,7 +16,7 @@ export const StandState = {
   over: 6,
 } as const
 export type StandState = (typeof StandState)[keyof typeof StandState]
-/** States that are counted; the others follow from these. */
+/** The number of states that are counted; the others follow from these. */
 export const COUNTED = 5
 
 const STATE_OF_PHASE: Record<Phase, StandState> = {
@@ -27,14 +28,14 @@ const STATE_OF_PHASE: Record<Phase, StandState> = {
   [Phase.flying]: StandState.promised,
 }
 
-/** Where an aircraft flies to, or would if it were not delayed; NONE for one that stands. */
+/** The destination of an aircraft, also if its flight is delayed; NONE if it stands. */
 export function destinationOf({ legs }: DayRecord, frame: FleetFrame, aircraft: number): number {
   const phase = at(frame.phases, aircraft)
   if (phase !== Phase.flying && phase !== Phase.delayed) return NONE
   return at(legs, at(frame.legs, aircraft)).to
 }
 
-/** The vertiport of which an aircraft holds a stand: where it stands, or where it is sent. */
+/** The vertiport whose stand an aircraft holds: where it stands, or its destination. */
 export function holdingOf(
   record: DayRecord,
   frame: FleetFrame,
@@ -45,15 +46,15 @@ export function holdingOf(
   return { vertiport: destination === NONE ? at(frame.stands, aircraft) : destination, state }
 }
 
-/** The aircraft of a moment, counted; one object counts moment after moment. */
+/** Counts of the aircraft at one time. One object is updated for every frame. */
 export class Counts {
   inTheAir = 0
   overdue = 0
-  /** Rises when a number of a vertiport has changed. */
+  /** Increases when a number of a vertiport has changed. */
   revision = 0
-  /** So many hold stands of each vertiport in each counted state. */
+  /** The number of stands held at each vertiport, by counted state. */
   held: Uint16Array
-  /** So many that are sent to each vertiport are overdue. */
+  /** The number of overdue aircraft on their way to each vertiport. */
   #overdueTo: Uint16Array
   #formerHeld: Uint16Array
   #formerOverdueTo: Uint16Array
@@ -86,7 +87,10 @@ export class Counts {
     this.#overdueTo[vertiport] = at(this.#overdueTo, vertiport) + 1
   }
 
-  /** Aircraft that stand at a vertiport, those that are promised a stand there, and how many of these are overdue. */
+  /**
+   * The number of aircraft that stand at a vertiport, of those with a promised stand there, and of
+   * the overdue among these.
+   */
   standsOf(vertiport: number): { taken: number; promised: number; overdue: number } {
     const promised = at(this.held, COUNTED * vertiport + StandState.promised)
     let all = 0

@@ -1,4 +1,5 @@
-// Tables as the program writes them: commas, line ends of any system, and quotes around what has commas or quotes in it.
+// Reads CSV as the program writes it: commas, any line endings, and quotes around fields that
+// contain commas or quotes.
 
 /** The rows of a table, each a list of its fields. An empty line is no row. */
 export function parseCsv(text: string): string[][] {
@@ -34,7 +35,9 @@ function plainRow(text: string, at: number): Row {
   return { row: text.slice(at, end).replace(/\r$/, '').split(','), next: end + 1 }
 }
 
-/** A row in which fields may be quoted; a quote within is written twice, and a quoted field may hold line ends. */
+/**
+ * A row with quoted fields. A quote inside is doubled, and a quoted field may contain line endings.
+ */
 function quotedRow(text: string, begin: number): Row {
   const row: string[] = []
   let [at, field, isQuoted] = [begin, '', false]

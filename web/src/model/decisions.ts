@@ -1,4 +1,5 @@
-// What a dispatcher looks at when an aircraft has to be decided: who waits, what speaks for each choice, what was decided lately.
+// The data of a dispatcher's decision: the waiting aircraft, the value of each choice, and the
+// latest decisions.
 
 import type { AircraftState, Alternative, DayState, Proposal, TakenEvent } from '../api/types'
 import type { DayRecord, LegRecord, Seconds } from './record'
@@ -12,13 +13,19 @@ export interface Waiting {
   isFull: boolean
 }
 
-/** Who needs a decision: who has waited longest comes first, and of these who takes the last stand of a vertiport. */
+/**
+ * Aircraft that need a decision, those that have waited longest first. Ties go to the aircraft that
+ * occupies the last stand of a vertiport.
+ */
 export function waitingOf(state: DayState): Waiting[] {
   const waiting = state.aircraft.filter((one) => one.needs_decision).map((one) => waitingAt(state, one))
   return waiting.sort((one, other) => one.ready - other.ready || Number(other.isFull) - Number(one.isFull))
 }
 
-/** Aircraft that were decided after an event: of these, a state or an outlook of that event is out of date. */
+/**
+ * Aircraft that were decided after an event. For these, a state or an outlook of that event is out
+ * of date.
+ */
 export function decidedSince(events: readonly TakenEvent[], seq: number): Set<string> {
   const since = new Set<string>()
   for (let at = events.length - 1; (events[at]?.seq ?? 0) > seq; at--) {
@@ -28,8 +35,10 @@ export function decidedSince(events: readonly TakenEvent[], seq: number): Set<st
   return since
 }
 
-/** Who is ready next, of those who fly or charge and have not been decided. Who stands ready and does not wait has nothing more to do
- *  on this day. */
+/**
+ * The aircraft that will be ready next: undecided and flying or charging. An aircraft that stands
+ * ready and does not wait has no further decisions on this day.
+ */
 export function nextOf(state: DayState, most: number, decided: ReadonlySet<string> = new Set()): Waiting[] {
   const now = timeOf(state.now)
   const isDone = (one: AircraftState) => one.phase === 'standing' && timeOf(one.ready) <= now
@@ -46,13 +55,16 @@ function waitingAt(state: DayState, { id, place, ready }: AircraftState): Waitin
   return { id, at: place, ready: timeOf(ready), isFull }
 }
 
-/** A decision that is expected of the policy. */
+/** An expected decision of the policy. */
 export interface Expected {
   id: string
   leg: LegRecord
 }
 
-/** What the outlook expects to be decided next, the earliest first, but of aircraft that have been decided since. */
+/**
+ * The next decisions in the outlook, the earliest first, except for aircraft that have been decided
+ * since.
+ */
 export function expectedNext(
   { legs, aircraft }: DayRecord,
   time: Seconds,
@@ -65,7 +77,9 @@ export function expectedNext(
   return next.map((leg) => ({ id: `${leg.aircraft} ${leg.decided}`, leg }))
 }
 
-/** A list that does not move while a user points at it: what is gone stays, what is new comes last. */
+/**
+ * A list that keeps its order while a user points at it: missing entries stay, new ones come last.
+ */
 export class Steady<T extends { id: string }> {
   #shown: readonly T[] = []
 
@@ -78,7 +92,7 @@ export class Steady<T extends { id: string }> {
   }
 }
 
-/** The choices that are possible, by the number that is shown of each, the highest first, and those that are not. */
+/** The possible choices by their displayed number, the highest first, and the impossible ones. */
 export function ranked(proposal: Proposal): { possible: Alternative[]; impossible: Alternative[] } {
   const possible = proposal.alternatives.filter((one) => one.impossible == null)
   const rank = (one: Alternative) => numberOf(one) ?? -Infinity
@@ -94,19 +108,25 @@ function compare(one: number, other: number): number {
   return one === other ? 0 : one - other
 }
 
-/** The number that is shown of a choice: its worth at the bid prices, which policies with prices have for every choice, and else what
- *  the policy compares by, which others have for every choice that they consider. */
+/**
+ * The displayed number of a choice: its worth at the bid prices if the policy has prices, otherwise
+ * the value that the policy compares. Policies with prices have a worth for every choice; others
+ * have a value only for choices that they consider.
+ */
 export function numberOf({ worth_usd, value }: Alternative): number | undefined {
   return worth_usd ?? value ?? undefined
 }
 
-/** What the number is that is shown of each choice; `none` is the score of a neural network, which has no unit. */
+/** The kind of the displayed number; `none` is the score of a neural network, which has no unit. */
 export function kindOfNumber({ policy, alternatives }: Proposal): 'worth' | 'dollars_per_hour' | 'none' {
   if (policy === 'greedy') return 'dollars_per_hour'
   return alternatives.some(({ worth_usd }) => worth_usd != null) ? 'worth' : 'none'
 }
 
-/** Whether two proposals advise the same: the same choice, and the same order of what else is possible. */
+/**
+ * Whether two proposals give the same advice: the same choice, and the same order of the other
+ * possible ones.
+ */
 export function isSameAdvice(one: Proposal, other: Proposal): boolean {
   if (one.aircraft !== other.aircraft || one.at !== other.at || one.to !== other.to) return false
   const order = (proposal: Proposal) => {
@@ -118,14 +138,17 @@ export function isSameAdvice(one: Proposal, other: Proposal): boolean {
   return order(one) === order(other)
 }
 
-/** What a choice is worth at the bid prices, in parts that add up. The flight itself pays no price for its passengers. */
+/**
+ * The worth of a choice at the bid prices, in parts that add up. The flight itself pays no price
+ * for its passengers.
+ */
 export interface Worth {
   flight_usd: number
-  /** What the aircraft can earn once it is ready there. */
+  /** The value of the aircraft's later flights from there. */
   onward_usd: number
   stand_usd: number
   worth_usd: number
-  /** What the policy makes of the worth, where it compares by more than prices. */
+  /** The policy's own value of the choice, if it compares by more than prices. */
   value_usd: number | undefined
 }
 
@@ -139,7 +162,7 @@ export function worthOf(alternative: Alternative): Worth | undefined {
   return { flight_usd: flight_profit_usd, onward_usd, stand_usd, worth_usd, value_usd }
 }
 
-/** A decision that was taken, and whether it still can be taken back. */
+/** A decision that was taken, and whether it can still be undone. */
 export interface Decided {
   seq: number
   aircraft: string
@@ -152,7 +175,10 @@ export interface Decided {
   canBeUndone: boolean
 }
 
-/** The latest decisions, newest first. One can be undone as long as nothing has happened to its aircraft since. */
+/**
+ * The latest decisions, newest first. A decision can be undone until the next event of its
+ * aircraft.
+ */
 export function decidedLately(events: readonly TakenEvent[], most: number): Decided[] {
   const decided: Decided[] = []
   const goneOn = new Set<string>()
@@ -170,10 +196,13 @@ export function decidedLately(events: readonly TakenEvent[], most: number): Deci
   return decided
 }
 
-/** What ends the time in which a decision can be taken back. */
+/** The events after which a decision can no longer be undone. */
 const AFTERWARDS = ['decided', 'undone', 'departed', 'landed']
 
-/** Whether the decision by an event can still be taken back, as far as events say; its own may not have come yet. */
+/**
+ * Whether the known events still allow undoing the decision of an event. That event itself may not
+ * have arrived yet.
+ */
 export function canBeTakenBack(events: readonly TakenEvent[], aircraft: string, seq: number): boolean {
   const latest = events.findLast(
     ({ event }) => 'aircraft' in event && event.aircraft === aircraft && AFTERWARDS.includes(event.type),

@@ -1,11 +1,11 @@
-// Where two plays of the same day differ. Two plays of policies are the same up to the first decision in which they differ, so that
-// one is a choice between two legs from one situation. Plays of people differ in the order and the second of their decisions too,
-// so legs are compared aircraft by aircraft.
+// Finds where two plays of the same day differ. Plays of policies are equal up to their first
+// different decision, so that is a choice between two legs in one situation. Decisions by people
+// also differ in order and by seconds, so legs are compared per aircraft.
 
 import { grouped } from './arrays'
 import type { DayRecord, LegRecord, Seconds } from './record'
 
-/** What each day did at a time; undefined where the aircraft has decided nothing. */
+/** What each day did at that time; undefined if the aircraft has no decision there. */
 export interface Difference {
   time: Seconds
   one: LegRecord | undefined
@@ -13,14 +13,20 @@ export interface Difference {
 }
 
 export interface FirstDifference extends Difference {
-  /** The first day's profit of this leg less the other's. */
+  /** The first day's profit of this leg minus the other's. */
   atDecision_usd: number
-  /** The first day's profit of the whole day less the other's. Where both played the same day, this is what the decision and all
-   *  later ones come to; a plan beside what happened was for another day, and owes the difference to that as well. */
+  /**
+   * The first day's profit of the whole day minus the other's. If both played the same day, this is
+   * the effect of the decision and all later ones. A plan was made for a different day than the one
+   * that was flown, so its difference includes that too.
+   */
   atEnd_usd: number
 }
 
-/** The first decision in which an aircraft is sent elsewhere; undefined if all go the same ways all day. */
+/**
+ * The first decision that sends an aircraft to different destinations; undefined if all routes are
+ * equal.
+ */
 export function firstDifference(one: DayRecord, other: DayRecord): FirstDifference | undefined {
   const [ones, others] = [grouped(one.legs, aircraftOf), grouped(other.legs, aircraftOf)]
   const aircraft = [...new Set([...ones.keys(), ...others.keys()])]
@@ -33,7 +39,7 @@ export function firstDifference(one: DayRecord, other: DayRecord): FirstDifferen
   }
 }
 
-/** Where the legs of an aircraft first lead elsewhere, as a list of one or of none. */
+/** The first legs of an aircraft with different destinations, as a list of at most one element. */
 function partings(ones: readonly LegRecord[], others: readonly LegRecord[]): Difference[] {
   const longer = ones.length > others.length ? ones : others
   const position = longer.findIndex((_, leg) => ones[leg]?.to !== others[leg]?.to)
@@ -44,13 +50,16 @@ function partings(ones: readonly LegRecord[], others: readonly LegRecord[]): Dif
 
 /** How a leg differs from another day. */
 export interface Differing {
-  /** What the aircraft does there: the same way at another time or with other passengers, or else what it was sent on last. */
+  /**
+   * The aircraft's leg on the other day: the same route at another time or with other passengers,
+   * otherwise the latest leg there.
+   */
   twin: LegRecord | undefined
-  /** Whether the aircraft does not go this way at about this time at all. */
+  /** Whether the other day has no leg on this route at about this time. */
   isElsewhere: boolean
 }
 
-/** Legs that another day does not have, by their positions in the record. */
+/** Legs without an equal leg on the other day, by position in the record. */
 export type Otherwise = ReadonlyMap<number, Differing>
 
 export interface Differences {
@@ -59,7 +68,10 @@ export interface Differences {
   first: Difference | undefined
 }
 
-/** All that differs for people who look at two timelines: where aircraft fly, when, and with how many passengers. */
+/**
+ * All differences that matter when two timelines are compared: routes, times and numbers of
+ * passengers.
+ */
 export function differences(one: DayRecord, other: DayRecord): Differences {
   const [inOne, inOther] = [otherwise(one, other), otherwise(other, one)]
   const first = earliest([
@@ -69,9 +81,9 @@ export function differences(one: DayRecord, other: DayRecord): Differences {
   return { one: inOne, other: inOther, first }
 }
 
-/** Timelines are read to the minute: decisions that are closer are the same. */
+/** Timelines are read to the minute, so decisions closer than this are equal. */
 const SAME_S = 60
-/** An aircraft that goes the same way within this time goes there later or earlier, and not elsewhere. */
+/** A leg on the same route within this time counts as earlier or later, not as another route. */
 const NEAR_S = 900
 
 function otherwise(record: DayRecord, other: DayRecord): Otherwise {
@@ -87,7 +99,7 @@ function otherwise(record: DayRecord, other: DayRecord): Otherwise {
   return found
 }
 
-/** The leg on the same way that is nearest in time, if one is near. */
+/** The leg on the same route that is nearest in time, if one is near enough. */
 function nearest(leg: LegRecord, twins: readonly LegRecord[]): LegRecord | undefined {
   const away = (twin: LegRecord) => Math.abs(twin.decided - leg.decided)
   return twins

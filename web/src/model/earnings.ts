@@ -1,11 +1,12 @@
-// What a day has earned by when, and how many wanted to fly and flew, period by period: the curves above a scrubber.
+// The profit of a day over time, and the demand and passengers of each period: the curves above a
+// scrubber.
 
 import { at, countUpTo } from './arrays'
 import { Boarding } from './boarding'
 import type { DayRecord, Seconds } from './record'
 import { isHold } from './record'
 
-/** What had come of a day at a time. */
+/** The sums of a day up to a time. */
 export interface Sums {
   profit_usd: number
   passengers: number
@@ -14,7 +15,9 @@ export interface Sums {
   holds: number
 }
 
-/** Sums of a day at any moment. Flights count from their decision on, as in the program's ledger. */
+/**
+ * The sums of a day at any time. Flights count from their decision on, as in the program's ledger.
+ */
 export class Earnings {
   readonly times: Float64Array
   /** After each leg, the cost of the fleet subtracted. */
@@ -55,7 +58,7 @@ export class Earnings {
     return this.profits.at(-1) ?? this.#first_usd
   }
 
-  /** The lowest and highest profit of the day, 0 among them. */
+  /** The lowest and highest profit of the day; the range includes 0. */
   get range(): [number, number] {
     const extremes: [number, number] = [Math.min(0, this.#first_usd), 0]
     for (const profit of this.profits) {
@@ -71,7 +74,7 @@ function summed(amounts: readonly number[], first = 0): Float64Array {
   return Float64Array.from(amounts, (amount) => (sum += amount))
 }
 
-/** Passengers of a period: those who want to fly and those whom flights carried. */
+/** Passengers of a period: the demand, and those carried by flights. */
 export interface PeriodSums {
   begins: Seconds
   ends: Seconds
@@ -79,7 +82,10 @@ export interface PeriodSums {
   carried: number
 }
 
-/** Demand by period, up to the end of operations. Passengers count in the period in which they wanted to fly. */
+/**
+ * Demand by period, up to the end of operations. Passengers count in the period in which they
+ * wanted to fly.
+ */
 export function demandByPeriod(record: DayRecord): PeriodSums[] {
   const sums = record.periods.map((begins, index): PeriodSums => {
     const table = record.demand?.passengers[index] ?? []

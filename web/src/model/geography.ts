@@ -1,24 +1,25 @@
-// Ways between vertiports: great circles where there are coordinates, straight lines in the plane of miles where not.
+// Routes between vertiports: great circles if there are coordinates, otherwise straight lines in
+// the plane of miles.
 //
-// A position is two numbers: degrees east and north, or miles east and north. Positions of a fleet are written into arrays that are
-// there already, since pictures ask for every aircraft at every frame.
+// A position is two numbers: degrees east and north, or miles east and north. Positions of a fleet
+// are written into existing arrays, because pictures read every aircraft in every frame.
 
 import { at } from './arrays'
 import type { Place, VertiportRecord } from './record'
 
-/** The mean radius of the earth, as docs/src/concepts/model.md has it. */
+/** The mean radius of the earth, as in docs/src/concepts/model.md. */
 const EARTH_MI = 3958.7613
 const RADIANS = Math.PI / 180
 
 type PlaceAndHeading = [east: number, north: number, heading: number]
 
-/** Where vertiports are, and the ways between them. */
+/** The positions of vertiports, and the routes between them. */
 export class Geography {
   /** Whether positions are degrees. Either all vertiports of a network have coordinates or none. */
   readonly isGlobe: boolean
   /** The positions of all vertiports, two numbers each. */
   readonly places: Float64Array
-  /** Unit vectors from the middle of the earth, three numbers each; empty in the plane. */
+  /** Unit vectors from the centre of the earth, three numbers each; empty in the plane. */
   readonly #vectors: Float64Array
 
   constructor(vertiports: readonly Pick<VertiportRecord, 'place'>[]) {
@@ -32,7 +33,7 @@ export class Geography {
     return this.places.length / 2
   }
 
-  /** The length of the way between two vertiports, miles. */
+  /** The length of the route between two vertiports, miles. */
   distance(from: number, to: number): number {
     if (this.isGlobe) return EARTH_MI * this.#angle(from, to)
     return Math.hypot(
@@ -41,7 +42,10 @@ export class Geography {
     )
   }
 
-  /** Writes the position after a share of the way to `places`, and the direction of flight in degrees from north to `headings`. */
+  /**
+   * Writes the position after a share of the route to `places`, and the direction of flight in
+   * degrees from north to `headings`.
+   */
   along(
     from: number,
     to: number,
@@ -64,7 +68,10 @@ export class Geography {
     return [x + share * dx, y + share * dy, Math.atan2(dx, dy) / RADIANS]
   }
 
-  /** Spherical interpolation: p = (a sin((1 - s) w) + b sin(s w)) / sin w, and the bearing of b seen from p. */
+  /**
+   * Spherical interpolation: p = (a sin((1 - s) w) + b sin(s w)) / sin w, and the bearing of b seen
+   * from p.
+   */
   #alongGreatCircle(from: number, to: number, share: number): PlaceAndHeading {
     const angle = this.#angle(from, to)
     const sine = Math.sin(angle)
@@ -79,7 +86,10 @@ export class Geography {
     return [east, north, this.#bearing(x, y, z, f, t, share)]
   }
 
-  /** The direction of the great circle at a point of it: the part of the way that points east, and that which points north. */
+  /**
+   * The direction of a great circle at one of its points, from its components to the east and to
+   * the north.
+   */
   #bearing(x: number, y: number, z: number, f: number, t: number, share: number): number {
     const vectors = this.#vectors
     const sign = share < 0.5 ? 1 : -1
@@ -91,7 +101,10 @@ export class Geography {
     return Math.atan2(sign * east, sign * north) / RADIANS
   }
 
-  /** The angle between two vertiports at the middle of the earth, which is exact also where they are close together. */
+  /**
+   * The angle between two vertiports at the centre of the earth. It is exact even for close
+   * vertiports.
+   */
   #angle(from: number, to: number): number {
     const [f, t, vectors] = [3 * from, 3 * to, this.#vectors]
     const dx = at(vectors, f) - at(vectors, t)

@@ -1,28 +1,29 @@
-// Who is hit if things are otherwise: what two rests of a day have in common and what not within the next hours. Later on nearly every
-// decision differs, because each follows from those before, so that says nothing about the change itself.
+// The near-term impact of a what-if: the differences between two continuations of a day within the
+// next hours. Later on nearly every decision differs, because each follows from earlier ones, so
+// those differences show nothing about the change.
 
 import { grouped } from './arrays'
 import type { Otherwise } from './differ'
 import { isHold, type DayRecord, type LegRecord, type Seconds } from './record'
 
-/** So far ahead a dispatcher can act on what is expected. */
+/** A dispatcher can act on expectations this far ahead. */
 export const AHEAD_S = 2 * 3600
 
-/** An aircraft that is sent elsewhere, with the first leg in which that shows. */
+/** An aircraft with another destination, and the first leg with that difference. */
 export interface HitAircraft {
   id: string
   asItIs: LegRecord | undefined
   whatIf: LegRecord | undefined
 }
 
-/** How many more are carried from one vertiport to another. */
+/** The difference in passengers carried from one vertiport to another. */
 export interface HitPair {
   from: string
   to: string
   more: number
 }
 
-/** How many more aircraft land at a vertiport. */
+/** The difference in landings at a vertiport. */
 export interface HitPlace {
   id: string
   more: number
@@ -31,14 +32,14 @@ export interface HitPlace {
 export interface Hit {
   until: Seconds
   aircraft: HitAircraft[]
-  /** Passengers who take off in these hours. */
+  /** Passengers who take off within these hours. */
   passengers: { asItIs: number; whatIf: number }
   /** The pairs with the largest differences first. */
   pairs: HitPair[]
   places: HitPlace[]
 }
 
-/** What differs from `now` on for two hours. */
+/** The differences within two hours of `now`. */
 export function hitOf(asItIs: DayRecord, whatIf: DayRecord, now: Seconds): Hit {
   const until = now + AHEAD_S
   const [ones, others] = [soonOf(asItIs, now, until), soonOf(whatIf, now, until)]
@@ -73,13 +74,15 @@ export function before(otherwise: Otherwise, record: DayRecord, until: Seconds):
   return new Map([...otherwise].filter(([index]) => (record.legs[index]?.decided ?? Infinity) < until))
 }
 
-/** The legs that are yet to be decided, in the hours that are looked at. */
+/** The legs that will be decided within the horizon. */
 function soonOf({ legs }: DayRecord, now: Seconds, until: Seconds): LegRecord[] {
   return legs.filter((leg) => leg.is_expected && leg.decided >= now && leg.decided < until)
 }
 
-/** Aircraft that are sent elsewhere before a time. Their whole rests are compared leg by leg, so that a leg a minute before the time in
- *  one and a minute after it in the other is no difference. */
+/**
+ * Aircraft that get another destination before a time. Their complete continuations are compared
+ * leg by leg. So a leg just before the time in one and just after it in the other is no difference.
+ */
 function aircraftOf(asItIs: DayRecord, whatIf: DayRecord, now: Seconds, until: Seconds): HitAircraft[] {
   const [mine, theirs] = [byAircraft(asItIs, now), byAircraft(whatIf, now)]
   const ids = [...new Set([...mine.keys(), ...theirs.keys()])]
@@ -102,7 +105,7 @@ function timeOf({ asItIs, whatIf }: HitAircraft): Seconds {
   return Math.min(asItIs?.decided ?? Infinity, whatIf?.decided ?? Infinity)
 }
 
-/** The legs of each aircraft that are yet to be decided. */
+/** The undecided legs of each aircraft. */
 function byAircraft({ aircraft, legs }: DayRecord, now: Seconds): Map<string, LegRecord[]> {
   const left = legs.filter((leg) => leg.is_expected && leg.decided >= now)
   return grouped(left, (leg) => aircraft[leg.aircraft]?.id ?? '')
@@ -126,7 +129,10 @@ function summed(
   return sums
 }
 
-/** By how much each sum is larger in the second map, where it is another one; the largest differences first. */
+/**
+ * The increase of each sum from the first map to the second, without zeros; the largest changes
+ * first.
+ */
 function moreOf(ones: Map<string, number>, others: Map<string, number>): [string, number][] {
   const names = [...new Set([...ones.keys(), ...others.keys()])]
   const more = names.map((name): [string, number] => [name, (others.get(name) ?? 0) - (ones.get(name) ?? 0)])

@@ -1,6 +1,7 @@
-// Keys as people write them: `a`, `?`, `Enter`, `Mod+k` (Ctrl, or Cmd on a Mac), and two after each other as `g n`.
+// Keys in text form: `a`, `?`, `Enter`, `Mod+k` (Ctrl, or Cmd on a Mac), and sequences such as `g
+// n`.
 
-/** What of a keyboard event says which key was pressed. */
+/** The part of a keyboard event that identifies the key. */
 export interface Pressed {
   key: string
   ctrlKey: boolean
@@ -8,7 +9,7 @@ export interface Pressed {
   altKey: boolean
 }
 
-/** The key of an event; undefined for those that only change others. */
+/** The key of an event; undefined for modifier keys alone. */
 export function keyOf({ key, ctrlKey, metaKey, altKey }: Pressed): string | undefined {
   if (['Shift', 'Control', 'Alt', 'Meta', 'AltGraph', 'Dead', 'Process'].includes(key)) return undefined
   const named = key === ' ' ? 'Space' : key
@@ -16,16 +17,19 @@ export function keyOf({ key, ctrlKey, metaKey, altKey }: Pressed): string | unde
   return altKey ? `Alt+${named}` : named
 }
 
-/** Whether a key types a character: such commands can be switched off, since they are easily hit by accident or by voice. */
+/**
+ * Whether a key types a character. Such commands can be switched off, because voice input or a slip
+ * triggers them easily.
+ */
 export function isCharacter(keys: string): boolean {
   return keys.split(' ').every((key) => key.length === 1)
 }
 
-/** Keys that are pressed one after the other within a short time. */
+/** Recognises keys that are pressed in sequence within a short time. */
 export class Sequence {
   #first: { key: string; at_ms: number } | undefined
 
-  /** What a key may mean: itself after the former one, or itself alone. */
+  /** The possible meanings of a key: in sequence with the previous key, or alone. */
   press(key: string, at_ms: number, longest_ms = 1200): string[] {
     const first = this.#first
     this.#first = { key, at_ms }

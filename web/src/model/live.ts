@@ -1,4 +1,4 @@
-// A live day as a record: its scenario, what its events said, and how the service expects it to go on.
+// A live day as a record, made from its scenario, its events, and the service's outlook.
 
 import type { AircraftState, DayState, Leg, Outlook } from '../api/types'
 import { grouped } from './arrays'
@@ -8,13 +8,13 @@ import { indexed, known, type Reports } from './reports'
 import type { Scenario } from './scenario'
 import { timeOf } from './time'
 
-/** Everything that a record is made of. The outlook may be older than the state, or not be there yet. */
+/** The inputs of a record. The outlook may be older than the state, or not available yet. */
 export interface LiveSources {
   scenario: Scenario
   reports: Reports
   state: DayState
   outlook: Outlook | undefined
-  /** What had been flown when the day was opened, for as long as there is no outlook. */
+  /** Legs flown before the day was opened, used until there is an outlook. */
   flown: readonly LegRecord[]
 }
 
@@ -26,7 +26,7 @@ export function liveRecord({ scenario, reports, state, outlook, flown }: LiveSou
   return { ...frame, vertiports, legs, ...whatIsKnown(scenario, reports, legs) }
 }
 
-/** A vertiport with the stands that it has by now, which a report may have changed. */
+/** A vertiport with its current stands, which a report may have changed. */
 function withStandsOf(
   one: VertiportRecord,
   now: DayState['vertiports'][number] | undefined,
@@ -35,7 +35,7 @@ function withStandsOf(
   return one.chargers === undefined ? { ...one, stands: now.stands } : { ...one, chargers: now.stands }
 }
 
-/** What a record has from its scenario alone. */
+/** The parts of a record that depend only on its scenario. */
 export function frameOf(scenario: Scenario): Omit<DayRecord, 'legs' | 'closures' | 'outages' | 'demand'> {
   const vertiports = indexed(scenario.vertiports)
   return {
@@ -80,10 +80,10 @@ function whatIsKnown(
   return { closures, outages, demand: demandOf(scenario, reports, legs) }
 }
 
-/** The legs of outlooks, read once: a day is drawn many times with one outlook. */
+/** The legs of outlooks, converted once, because a day is drawn many times with one outlook. */
 const readLegs = new WeakMap<Outlook, LegRecord[]>()
 
-/** The legs of an outlook, in its order, which is that of decisions. */
+/** The legs of an outlook in order of decision, as in the outlook. */
 export function legsOf(outlook: Outlook, scenario: Scenario): LegRecord[] {
   const former = readLegs.get(outlook)
   if (former !== undefined) return former
@@ -109,7 +109,7 @@ function legOf(leg: Leg, aircraft: Map<string, number>, vertiports: Map<string, 
   }
 }
 
-/** The legs of an outlook, brought up to date by what was reported and by the state. */
+/** The legs of an outlook, updated with reports and the state. */
 class Legs {
   #legs: LegRecord[]
   /** The latest decision of each aircraft. */
@@ -124,7 +124,7 @@ class Legs {
     for (const leg of this.#legs) if (!leg.is_expected) this.#latest.set(leg.aircraft, leg)
   }
 
-  /** Takes what the state knows of every aircraft, which may be newer than the outlook. */
+  /** Applies the state of every aircraft, which may be newer than the outlook. */
   broughtUpTo(state: DayState): LegRecord[] {
     const more: LegRecord[] = []
     const [ids, places] = [indexed(this.scenario.aircraft), indexed(this.scenario.vertiports)]
@@ -150,7 +150,10 @@ class Legs {
     return more.length === 0 ? this.#legs : this.#with(more)
   }
 
-  /** An aircraft that stands has landed. If it has stood there since before its latest flight was decided, that was taken back. */
+  /**
+   * An aircraft that stands has landed. If it has stood there since before its latest flight was
+   * decided, that decision was undone.
+   */
   #stands(
     one: AircraftState,
     latest: LegRecord | undefined,
@@ -161,7 +164,10 @@ class Legs {
     else if (!one.out_of_service) Object.assign(latest, times)
   }
 
-  /** The leg of an aircraft that is under way, with the report that it waits for. Reports may be newer than the state. */
+  /**
+   * The leg of an aircraft under way, with the report that it awaits. Reports may be newer than the
+   * state.
+   */
   #awaiting({ phase }: AircraftState, leg: LegRecord): LegRecord {
     const report = this.reports.decision(leg.aircraft, leg.decided)
     if (report?.landed !== undefined) {
@@ -177,7 +183,10 @@ class Legs {
     }
   }
 
-  /** With legs of which the outlook knows nothing yet. What it expected of these aircraft before they are ready is void. */
+  /**
+   * Adds legs that the outlook does not contain yet. They replace the expected legs of these
+   * aircraft up to the time when they are ready.
+   */
   #with(more: LegRecord[]): LegRecord[] {
     const readyAt = new Map(more.map((leg) => [leg.aircraft, leg.ready]))
     const isVoid = (leg: LegRecord) => leg.is_expected && leg.decided < (readyAt.get(leg.aircraft) ?? 0)
@@ -185,7 +194,7 @@ class Legs {
     return legs.sort((one, other) => one.decided - other.decided || one.aircraft - other.aircraft)
   }
 
-  /** A leg with when it left, who decided, and what had been planned if something else came of it. */
+  /** A leg with its reported departure, who decided it, and the plan if it went differently. */
   #reported(leg: LegRecord): LegRecord {
     const report = this.reports.decision(leg.aircraft, leg.decided)
     const policy = report?.policy === undefined ? {} : { policy: report.policy }
@@ -198,7 +207,7 @@ class Legs {
   }
 }
 
-/** How many want to fly: the forecast, and what the events said in its place. */
+/** The demand: the forecast, updated by events. */
 function demandOf(scenario: Scenario, reports: Reports, legs: LegRecord[]): DemandRecord {
   const passengers = (scenario.forecast ?? scenario.demand).map((table) => table.map((row) => [...row]))
   const carried = new Carried(legs, reports.periods)
@@ -212,7 +221,9 @@ function demandOf(scenario: Scenario, reports: Reports, legs: LegRecord[]): Dema
   return { passengers }
 }
 
-/** Passengers who were carried, by period and pair: a report of demand counts only those who are left. */
+/**
+ * The passengers carried, by period and pair. A report of demand counts only those who are left.
+ */
 class Carried {
   readonly #legs: Map<string, LegRecord[]>
 

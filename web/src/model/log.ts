@@ -1,4 +1,4 @@
-// The log of a day: which of its events a person wants to see.
+// The log of a day and its filter.
 
 import type { Event, TakenEvent } from '../api/types'
 
@@ -21,7 +21,7 @@ export const eventTypes = [
   'clock',
 ] as const satisfies readonly Event['type'][]
 
-/** What is looked for; an empty text means all. */
+/** The filter; an empty text matches everything. */
 export interface LogFilter {
   text: string
   type: string
@@ -32,13 +32,16 @@ export interface LogFilter {
 
 export const everything: LogFilter = { text: '', type: '', aircraft: '', vertiport: '', actor: '' }
 
-/** What a person reads of an event, and the vertiport of a departure or a landing, which its event need not name. */
+/**
+ * The text of an event, and the vertiport of a departure or a landing, which its event may not
+ * name.
+ */
 export interface Said {
   words: string
   place?: string | undefined
 }
 
-/** Whether an event is looked for. */
+/** Whether an event matches the filter. */
 export function isWanted(taken: TakenEvent, filter: LogFilter, saidOf: (taken: TakenEvent) => Said): boolean {
   const { event, actor } = taken
   if (filter.type !== '' && event.type !== filter.type) return false

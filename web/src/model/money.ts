@@ -1,15 +1,17 @@
-// Dollars as a person reads them: whole in sums, with cents where one flight is looked at, and always with their sign where
-// they are a difference.
+// Formats dollars: whole for sums, with cents for single flights, and always with a sign for
+// differences.
 
 const whole = new Intl.NumberFormat('en-US', { maximumFractionDigits: 0 })
 const cents = new Intl.NumberFormat('en-US', { minimumFractionDigits: 2, maximumFractionDigits: 2 })
 const oneDigit = new Intl.NumberFormat('en-US', { minimumFractionDigits: 1, maximumFractionDigits: 1 })
 
-/** The minus of typography, which is as wide as a digit. */
+/** The typographic minus, which is as wide as a digit. */
 const MINUS = '−'
-/** Keeps a sign on the line of its dollars, which a break after it would turn into their opposite. */
+/**
+ * Prevents a line break between a sign and its dollars, which would make a loss look like a gain.
+ */
 const JOINER = '\u2060'
-/** The dollars of an amount, with what joins them to their sign. */
+/** The dollar sign of an amount, with the joiner before it. */
 const CURRENCY = /\u2060?\$/
 
 /** `$37,149` for sums of a day. */
@@ -27,7 +29,7 @@ export function dollarDifference(amount_usd: number): string {
   return isNothing(amount_usd) ? `±${JOINER}$0` : signed(amount_usd, whole, '+')
 }
 
-/** Whether a difference is written as none. */
+/** Whether a difference is formatted as zero. */
 export function isNothing(amount_usd: number): boolean {
   return Math.round(amount_usd) === 0
 }
@@ -53,7 +55,7 @@ export function percent(share: number, digits = 0): string {
   return `${(Math.round(share * 100 * factor) / factor).toFixed(digits)} %`
 }
 
-/** `−1.4` or `±0.0`: how many percent of the whole two shares differ by. */
+/** `−1.4` or `±0.0`: the difference of two shares in percentage points. */
 export function pointDifference(share: number): string {
   return Math.abs(share) < 0.0005 ? '±0.0' : signed(100 * share, oneDigit, '+').replace(CURRENCY, '')
 }

@@ -1,5 +1,5 @@
-// Where every aircraft is at a moment, what it does there, and how full its battery is about. A fleet is prepared once for a
-// record; a frame then takes a search in the legs of each aircraft and allocates nothing.
+// The position, phase and approximate charge of every aircraft at a time. A fleet is prepared once
+// per record. After that a frame only searches the legs of each aircraft and allocates nothing.
 
 import { at, countUpTo } from './arrays'
 import { latenessOf, minutesOverdue } from './awaited'
@@ -7,7 +7,7 @@ import { Geography } from './geography'
 import type { AircraftRecord, DayRecord, LegRecord, Seconds } from './record'
 import { isHold } from './record'
 
-/** What an aircraft does. */
+/** The phase of an aircraft. */
 export const Phase = {
   /** It is ready, and its next flight is not decided. */
   waiting: 0,
@@ -21,13 +21,13 @@ export const Phase = {
 } as const
 export type Phase = (typeof Phase)[keyof typeof Phase]
 
-/** Where nothing is: an aircraft without a leg, or in the air and so at no vertiport. */
+/** No index: an aircraft without a leg, or one in the air and thus at no vertiport. */
 export const NONE = -1
 
-/** The fleet at a moment, an element for each aircraft. */
+/** The fleet at one time, with one element for each aircraft. */
 export class FleetFrame {
   time: Seconds = NaN
-  /** Degrees or miles east and north, two for each aircraft. */
+  /** Degrees or miles east and north, two numbers for each aircraft. */
   readonly places: Float64Array
   /** Degrees clockwise from north; 0 while the aircraft stands. */
   readonly headings: Float32Array
@@ -36,7 +36,7 @@ export class FleetFrame {
   readonly phases: Uint8Array
   /** An estimate of the share of the battery that is charged, 0 to 1. */
   readonly charges: Float32Array
-  /** Position in the record's legs of the leg that the aircraft is on, or NONE before the first. */
+  /** Position in the record's legs of the aircraft's current leg, or NONE before the first. */
   readonly legs: Int32Array
   /** The vertiport where it stands, or NONE in the air. */
   readonly stands: Int32Array
@@ -55,10 +55,10 @@ export class FleetFrame {
   }
 }
 
-/** The legs of all aircraft, one aircraft after the other, as numbers. */
+/** The legs of all aircraft as numbers, one aircraft after the other. */
 export class Fleet {
   readonly geography: Geography
-  /** Where the legs of each aircraft begin; one more element than aircraft. */
+  /** Where the legs of each aircraft begin; it has one more element than there are aircraft. */
   readonly #begins: Int32Array
   readonly #legs: Int32Array
   readonly #decided: Float64Array
@@ -93,7 +93,10 @@ export class Fleet {
     })
   }
 
-  /** Days begin with full batteries; a flight takes energy by the mile, and charging begins at arrival. */
+  /**
+   * Days begin with full batteries. A flight uses energy by the mile, and charging begins at
+   * arrival.
+   */
   #estimateCharges(aircraft: AircraftRecord, index: number): void {
     let former: LegRecord | undefined
     let charge = 1
@@ -112,17 +115,17 @@ export class Fleet {
     return at(this.record.legs, at(this.#legs, slot))
   }
 
-  /** A frame of the right size, to be filled by `show` again and again. */
+  /** A frame of the right size, which `show` can fill repeatedly. */
   frame(): FleetFrame {
     return new FleetFrame(this.record.aircraft.length)
   }
 
-  /** The legs of an aircraft as positions in the record's legs, in the order of time. */
+  /** The legs of an aircraft as positions in the record's legs, in chronological order. */
   legsOf(aircraft: number): Int32Array {
     return this.#legs.subarray(at(this.#begins, aircraft), at(this.#begins, aircraft + 1))
   }
 
-  /** Writes the fleet at a moment to a frame. */
+  /** Writes the fleet at a time to a frame. */
   show(time: Seconds, frame: FleetFrame): void {
     frame.time = time
     for (let one = 0; one < frame.size; one++) this.#showAircraft(one, time, frame)
@@ -179,7 +182,7 @@ export class Fleet {
 
   #fly(one: number, leg: LegRecord, time: Seconds, frame: FleetFrame): void {
     const { takeoff_s, landing_s } = this.record
-    // A flight whose landing is not reported when it is due goes back out to its approach and stays there.
+    // A flight whose landing is due and not reported goes back out to its approach and stays there.
     const whole_s = leg.arrives - leg.departs
     const left_s = Math.max(leg.arrives - time, Math.min(latenessOf(leg, time), landing_s / 2, whole_s / 2))
     const flown_s = whole_s - left_s
@@ -191,11 +194,14 @@ export class Fleet {
   }
 }
 
-/** The share of a flight's way that is behind it: the speed rises evenly over the take-off and falls evenly over the landing. */
+/**
+ * The share of the route that is flown: speed rises linearly during take-off and falls linearly
+ * during landing.
+ */
 export function shareOfWay(flown_s: number, left_s: number, takeoff_s: number, landing_s: number): number {
   const total_s = flown_s + left_s
   if (total_s <= 0) return 1
-  // A flight that is shorter than its take-off and landing spends its time on them in proportion.
+  // If a flight is shorter than its take-off and landing, both are shortened in proportion.
   const fit = Math.min(1, total_s / Math.max(takeoff_s + landing_s, 1e-9))
   const [up_s, down_s] = [takeoff_s * fit, landing_s * fit]
   const whole = total_s - (up_s + down_s) / 2

@@ -1,5 +1,5 @@
-// How long a flight and its charging take if nothing holds them up (docs/src/concepts/model.md). Traces and the service's legs have
-// only what came of a flight, so the plan that pictures compare it with is computed here.
+// The duration of an undelayed flight and its charging (docs/src/concepts/model.md). Traces and the
+// service's legs contain only the outcome of a flight, so the plan for comparison is computed here.
 
 import type { LegRecord, Seconds } from './record'
 import type { Scenario } from './scenario'
@@ -9,7 +9,7 @@ export interface Nominal {
   charge_s: Seconds
 }
 
-/** The way at cruise speed between take-off and landing; then the battery is charged to full. */
+/** Cruise between take-off and landing; then the battery is charged to full. */
 export function nominal(
   { operations, aircraft, aircraft_types, distance_mi }: Scenario,
   leg: Pick<LegRecord, 'aircraft' | 'from' | 'to'>,

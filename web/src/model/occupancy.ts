@@ -1,22 +1,25 @@
-// Who stands where and when. A stand is promised at the decision to fly towards a vertiport
-// and free again at the decision to leave it (Eq. 16), so each stay of an aircraft holds one stand without a gap.
+// The stays of aircraft at stands. A stand is promised at the decision to fly towards a vertiport.
+// It is freed at the decision to leave it (Eq. 16), so each stay holds one stand without a gap.
 
 import { at } from './arrays'
 import { NONE } from './motion'
 import type { DayRecord, Seconds } from './record'
 import { isHold } from './record'
 
-/** The time in which an aircraft holds a stand. */
+/** The time during which an aircraft holds a stand. */
 export interface Stay {
   aircraft: number
   vertiport: number
-  /** The stand is promised from here on, taken from `arrives` on, charged until `ready`, free from `leaves` on. */
+  /**
+   * The stand is promised from `promised`, taken from `arrives`, and free again from `leaves`; the
+   * aircraft charges until `ready`.
+   */
   promised: Seconds
   arrives: Seconds
   ready: Seconds
   /** Infinity for the last stay of the day. */
   leaves: Seconds
-  /** Position in the record's legs of the flight that led here; NONE at the start of the day. */
+  /** Position in the record's legs of the flight to this stand; NONE at the start of the day. */
   leg: number
 }
 
@@ -49,7 +52,7 @@ function stayAtStart(aircraft: number, vertiport: number): Stay {
   return { aircraft, vertiport, promised: begin, arrives: begin, ready: begin, leaves: Infinity, leg: NONE }
 }
 
-/** How many aircraft a vertiport has room for. */
+/** The number of aircraft that fit at a vertiport. */
 export function roomOf({ stands, chargers }: { stands: number; chargers?: number }): number {
   return stands + (chargers ?? 0)
 }

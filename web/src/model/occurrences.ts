@@ -1,16 +1,17 @@
-// Since when things have been so that a console sees from time to time: what has ended and comes back is another occurrence.
+// Records when each condition was first observed in a series of observations. If a condition ends
+// and comes back, that is a new occurrence.
 
 import type { Seconds } from './record'
 
 export class Occurrences {
   #seen = new Map<string, Seconds>()
 
-  /** Takes what there is at a time. */
+  /** Records the conditions that hold at a time. */
   see(keys: readonly string[], time: Seconds): void {
     this.#seen = new Map(keys.map((key) => [key, this.#seen.get(key) ?? time]))
   }
 
-  /** When this occurrence of something was seen first. */
+  /** When the current occurrence of a condition was first observed. */
   firstSeen(key: string): Seconds | undefined {
     return this.#seen.get(key)
   }

@@ -1,5 +1,5 @@
-// When a day is over, by the service's rule (`LiveDay::is_over` in crates/sim/src/live.rs): nothing is left to decide, and every
-// aircraft is on the ground.
+// The service's rule for the end of a day (`LiveDay::is_over` in crates/sim/src/live.rs): there are
+// no decisions left, and every aircraft is on the ground.
 
 import type { AircraftState, DayState } from '../api/types'
 import type { Seconds } from './record'
@@ -14,8 +14,9 @@ export function isOver({ now, aircraft }: Known, end: Seconds): boolean {
 }
 
 /**
- * Whether something else could be decided in the place of an aircraft's latest decision. A flight that has not departed can be called
- * off at any time; a hold that is taken back after the end of operations would leave an aircraft that can no longer be decided.
+ * Whether an aircraft's latest decision can be replaced by another. A flight that has not departed
+ * can be cancelled at any time. If a hold were undone after the end of operations, the aircraft
+ * could no longer be decided.
  */
 export function canBeDecidedAnew(state: Known, aircraft: AircraftState, end: Seconds): boolean {
   if (aircraft.needs_decision || isOver(state, end)) return false

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest'
 import { Pace } from './pace'
 
-/** Shows the clock sixty times a second from one instant to another. */
+/** Reads the clock sixty times a second from one instant to another. */
 function frames(pace: Pace, from_ms: number, to_ms: number): number[] {
   const shown: number[] = []
   for (let at = from_ms; at <= to_ms; at += 1000 / 60) shown.push(pace.at(at))

@@ -1,24 +1,35 @@
-// How fast a day passes. Events say what time it was when they came; between them the clock goes on at the speed that was
-// observed, so that movement is smooth. It waits for news if none comes, and never runs back unless it turns out that time stands
-// still: a simulated day waits for people, or nothing more is heard of it. The clock then is at the latest time that is known.
+// The speed of a day. Events carry the time of the day when they arrived. Between events the clock
+// runs at the observed speed, so that movement is smooth. Without news it runs on for a limited
+// time.
+//
+// It goes back only if the time of the day turns out to stand still: a simulated day waits for a
+// user, or its events stop. The clock then shows the latest known time.
 
 import type { Seconds } from './record'
 
-/** What is looked back on to see the speed: long enough for a few events of a quiet day at its own speed. */
+/** The window for measuring the speed: long enough for a few events of a quiet day in real time. */
 export const LOOK_BACK_MS = 60_000
-/** News of a shorter time says nothing about the speed: events come in bursts. */
+/** News within a shorter time is no measure of the speed, because events come in bursts. */
 const LEAST_OBSERVED_MS = 1_000
-/** How long the clock takes to make up for what news says: fast enough to be right, slow enough not to jump. */
+/**
+ * How long the clock takes to correct a difference: short enough to be accurate, long enough not to
+ * jump.
+ */
 const CATCH_UP_MS = 700
-/** A clock that is further behind than this, in its own time, jumps: a person has come back to the page. */
+/**
+ * A clock that is further behind than this, in real time, jumps: the user has returned to the page.
+ */
 const JUMP_MS = 4_000
-/** How much longer than the longest silence so far the clock goes on without news. */
+/** Without news the clock runs this many times as long as the longest silence so far. */
 const PATIENCE = 1.5
 const LEAST_PATIENCE_MS = 1_500
-/** A day that passes faster than this is simulated, and waits where people are to decide: its clock goes on for less long. */
+/**
+ * A day that is faster than this is simulated and waits for decisions, so its clock runs on for a
+ * shorter time without news.
+ */
 const SIMULATED = 2
 const MOST_AHEAD_S = 120
-/** A day of which nothing is heard for so many times as long as the clock goes on without news stands still. */
+/** A day stands still after this multiple of the time for which the clock runs without news. */
 const STILL = 2
 const LEAST_STILL_MS = 5_000
 
@@ -30,10 +41,15 @@ interface News {
 export class Pace {
   #news: News[] = []
   #shown: News | undefined
-  /** Whether aircraft wait for people. A simulated day then stands still; a day that happens does not. */
+  /**
+   * Whether aircraft wait for decisions. A simulated day then stands still; a real day does not.
+   */
   isAwaited = false
 
-  /** Takes the news that the day was at a time. News of the same or an earlier time says nothing. */
+  /**
+   * Adds an observation of the day's time. An observation of the same or an earlier time is
+   * ignored.
+   */
   hear(time: Seconds, at_ms: number): void {
     const latest = this.#news.at(-1)
     if (latest !== undefined && time <= latest.time) return
@@ -42,32 +58,32 @@ export class Pace {
     if (old > 0) this.#news = this.#news.slice(Math.max(0, Math.min(old, this.#news.length - 2)))
   }
 
-  /** Seconds of the day that pass in a second; 0 while nothing is known. */
+  /** Seconds of the day per second; 0 while unknown. */
   get speed(): number {
     const [first, last] = [this.#news[0], this.#news.at(-1)]
     if (first === undefined || last === undefined || last.at_ms - first.at_ms < LEAST_OBSERVED_MS) return 0
     return ((last.time - first.time) / (last.at_ms - first.at_ms)) * 1000
   }
 
-  /** The latest time that is known; undefined while nothing is. */
+  /** The latest known time; undefined if there is none. */
   get latest(): Seconds | undefined {
     return this.#news.at(-1)?.time
   }
 
-  /** The day is over at a time: the clock stops there. */
+  /** The day is over at a time; the clock stops there. */
   end(time: Seconds, at_ms: number): void {
     this.#news = [{ time, at_ms }]
     this.#shown = { time, at_ms }
   }
 
-  /** Whether a simulated day has said nothing for so long that its time evidently does not pass. */
+  /** Whether a simulated day has been silent for so long that its time evidently stands still. */
   isStill(now_ms: number): boolean {
     const latest = this.#news.at(-1)
     if (latest === undefined || this.speed <= SIMULATED) return false
     return now_ms - latest.at_ms > Math.max(LEAST_STILL_MS, STILL * this.#patience())
   }
 
-  /** The time to show. */
+  /** The time to display. */
   at(now_ms: number): Seconds {
     const latest = this.#news.at(-1)
     if (latest !== undefined && this.speed > SIMULATED && (this.isAwaited || this.isStill(now_ms))) {

@@ -4,7 +4,7 @@ import { outlook, scenario } from './fixtures/liveDay'
 import { recordOfPlan } from './plan'
 import { timeOf } from './time'
 
-/** As the service would have answered before the first event. */
+/** The service's answer before the first event. */
 const plan: Outlook = {
   ...outlook,
   seq: 0,

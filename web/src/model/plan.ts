@@ -1,5 +1,5 @@
-// The day as a policy planned it in the morning: an outlook that was made before anything happened, as a record to play beside
-// what has become of the day.
+// The plan that a policy made in the morning: an outlook from before the first event, as a record
+// to compare with the actual day.
 
 import type { Outlook } from '../api/types'
 import { frameOf, legsOf } from './live'
@@ -7,8 +7,10 @@ import type { DayRecord, Seconds } from './record'
 import { Reports } from './reports'
 import type { Scenario } from './scenario'
 
-/** A plan with the demand of the forecast and the closures that were known. Its legs stay expected, since none was flown. Of a
- *  day that is not over, it is shown as far as the day has come. */
+/**
+ * A plan with the forecast demand and the closures known then. Its legs are all expected, because
+ * none was flown. If the day is not over, the plan is cut off at the current time.
+ */
 export function recordOfPlan(scenario: Scenario, outlook: Outlook, until: Seconds = Infinity): DayRecord {
   const { closures, outages } = new Reports(scenario)
   const legs = legsOf(outlook, scenario).filter((leg) => leg.decided <= until)

@@ -1,16 +1,16 @@
-// The one shape that all views share: a day as it is shown, whether it happens now, is over, or was only simulated. Maps and
-// timelines take a record and a time and know nothing of the service, so that reports can embed them.
+// The data shape that all views share: a day that is live, over, or simulated. Maps and timelines
+// take a record and a time and do not depend on the service, so that reports can embed them.
 
-/** Seconds since midnight of the day; may pass 24 hours. */
+/** Seconds since midnight of the day; may exceed 24 hours. */
 export type Seconds = number
 
-/** A day as it is shown: what has happened and what is expected to. */
+/** A day for display: past and expected events. */
 export interface DayRecord {
   name: string
-  /** When operations start, and the last time at which an aircraft may decide. Flights may land later. */
+  /** When operations start, and the latest time for a decision. Flights may land later. */
   start: Seconds
   end: Seconds
-  /** How long every flight spends on take-off and on landing, beside its way. */
+  /** The time that every flight spends on take-off and on landing, in addition to the cruise. */
   takeoff_s: number
   landing_s: number
   /** How long passengers who were not carried in their period wait into the next one. */
@@ -21,7 +21,7 @@ export interface DayRecord {
   legs: LegRecord[]
   closures: ClosureRecord[]
   outages: OutageRecord[]
-  /** Beginnings of the periods of demand. */
+  /** Beginnings of the demand periods. */
   periods: Seconds[]
   demand?: DemandRecord
 }
@@ -30,11 +30,13 @@ export interface VertiportRecord {
   id: string
   place: Place
   stands: number
-  /** Chargers, where they are counted apart from stands. */
+  /** The number of chargers, if it is separate from the number of stands. */
   chargers?: number
 }
 
-/** Where a vertiport is: miles east and north, and degrees where the network has coordinates. */
+/**
+ * The position of a vertiport: miles east and north, and degrees if the network has coordinates.
+ */
 export interface Place {
   x_mi: number
   y_mi: number
@@ -53,7 +55,10 @@ export interface AircraftRecord {
   begins_at: number
 }
 
-/** A flight or a hold; a hold has `from` equal to `to`. Times are the best known: actual where reported, else expected. */
+/**
+ * A flight or a hold; a hold has `from` equal to `to`. Times are the best known: actual if
+ * reported, otherwise expected.
+ */
 export interface LegRecord {
   /** Indices into the record's aircraft and vertiports. */
   aircraft: number
@@ -63,19 +68,25 @@ export interface LegRecord {
   departs: Seconds
   arrives: Seconds
   ready: Seconds
-  /** What was planned when it was decided, where something else has come of it. */
+  /** The plan at the time of the decision, if the flight went differently. */
   planned?: { departs: Seconds; arrives: Seconds; ready: Seconds }
-  /** The report that a live day waits for next, and when it is due; absent once the aircraft has landed. */
+  /**
+   * The report that a live day awaits next, and when it is due; absent once the aircraft has
+   * landed.
+   */
   awaited?: { report: 'departure' | 'landing'; due: Seconds }
   passengers: number
   profit_usd: number
   /** Whether the decision has not been taken yet: the leg is part of an outlook. */
   is_expected: boolean
-  /** The policy that decided; absent if a person did, or if it is not known. */
+  /** The policy that decided; absent if a person did, or if it is unknown. */
   policy?: string
 }
 
-/** Routes that are closed to new flights: one way between two vertiports, or all of a vertiport. */
+/**
+ * Routes that are closed to new flights: one route between two vertiports, or all routes of a
+ * vertiport.
+ */
 export type ClosureRecord = (RouteRecord | { vertiport: number }) & {
   since: Seconds
   /** Absent if it is not known. */
@@ -88,7 +99,7 @@ export interface RouteRecord {
   to: number
 }
 
-/** A time in which an aircraft cannot fly. */
+/** A period in which an aircraft cannot fly. */
 export interface OutageRecord {
   aircraft: number
   since: Seconds
@@ -96,7 +107,7 @@ export interface OutageRecord {
   reason?: string
 }
 
-/** Passengers who want to fly, by period, origin and destination; those whom flights carried are in the legs. */
+/** Demand by period, origin and destination; the passengers carried are in the legs. */
 export interface DemandRecord {
   passengers: number[][][]
 }

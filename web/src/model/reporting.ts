@@ -1,4 +1,4 @@
-// Events as a person fills them in: which fields each kind has, and the event that comes of them.
+// The event form: the fields of each kind of event, and the event made from them.
 
 import type { Event } from '../api/types'
 import { routesOf } from './whatif'
@@ -6,26 +6,29 @@ import { clock, parseTime } from './time'
 
 export interface EventFields {
   aircraft: string
-  /** A vertiport, or where a route begins. */
+  /** A vertiport, or the origin of a route. */
   from: string
-  /** Where a route ends; empty for all routes of a vertiport. */
+  /** The destination of a route; empty for all routes of a vertiport. */
   to: string
-  /** A time as it was typed. */
+  /** A time, as typed. */
   until: string
   number: number
 }
 
-/** Which fields a kind of event has. */
+/** The fields of a kind of event. */
 interface FieldsOf {
   aircraft: boolean
   from: boolean
-  /** A destination; `all` if it may be left open. */
+  /** Whether there is a destination; `all` means that it is optional. */
   to: 'no' | 'one' | 'all'
   number: boolean
   until: 'no' | 'may' | 'must'
 }
 
-/** What a user reports by hand, with its fields; the rest comes from decisions and from systems that count passengers. */
+/**
+ * The kinds of events that users report by hand, with their fields. Other events come from
+ * decisions and from systems that count passengers.
+ */
 const fields = {
   departed: { aircraft: true },
   landed: { aircraft: true },
@@ -47,7 +50,7 @@ export function fieldsOf(kind: ReportKind): FieldsOf {
   return { aircraft: false, from: false, to: 'no', number: false, until: 'no', ...fields[kind] }
 }
 
-/** The event that was filled in; undefined if its time is none. */
+/** The event from the form; undefined if its time is invalid. */
 export function eventOf(kind: ReportKind, typedIn: EventFields): Event | undefined {
   const { aircraft, from, to, number } = typedIn
   const typed = typedIn.until.trim()

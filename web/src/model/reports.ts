@@ -1,12 +1,12 @@
-// What the events of a day have said so far, as far as pictures show it: when flights left, what was closed, who was out of
-// service, how many want to fly. Events are taken one by one, once, so that an hour of them costs no more than its events.
+// The reports of a day so far, as pictures need them: departures, closures, outages and demand.
+// Each event is applied once and in order, so the cost is proportional to the number of events.
 
 import type { Event, RouteNames, TakenEvent } from '../api/types'
 import type { ClosureRecord, OutageRecord, RouteRecord, Seconds } from './record'
 import type { Scenario, ScenarioClosure } from './scenario'
 import { timeOf } from './time'
 
-/** What is known of a decision beside what the service's outlook says. */
+/** Facts about a decision that the service's outlook does not contain. */
 export interface ReportedDecision {
   departs?: Seconds
   hasDeparted: boolean
@@ -14,22 +14,22 @@ export interface ReportedDecision {
   policy?: string
 }
 
-/** What was said of the passengers of a pair in a period. */
+/** The reports about the passengers of a pair in a period. */
 export interface DemandReport extends RouteRecord {
   period: number
-  /** So many still wanted to fly at a time. */
+  /** The number who still wanted to fly at a time. */
   left?: { passengers: number; at: Seconds }
-  /** So many more want to since; negative if fewer. */
+  /** The change in their number since then; negative if there are fewer. */
   more: number
 }
 
 export class Reports {
   readonly closures: ClosureRecord[]
   readonly outages: OutageRecord[] = []
-  /** By period and pair; only what was said last counts. */
+  /** By period and pair; only the latest report counts. */
   readonly #demand = new Map<string, DemandReport>()
   readonly periods: Seconds[]
-  /** The number of the latest event that was taken. */
+  /** The number of the latest event that was applied. */
   seq = 0
   readonly #aircraft: Map<string, number>
   readonly #vertiports: Map<string, number>
@@ -44,7 +44,7 @@ export class Reports {
     this.closures = closuresOf(scenario, (one) => one.known === true)
   }
 
-  /** What is known of the decision that an aircraft took at a time. */
+  /** The known facts about the decision of an aircraft at a time. */
   decision(aircraft: number, decided: Seconds): ReportedDecision | undefined {
     return this.#decisions.get(key(aircraft, decided))
   }
@@ -121,7 +121,10 @@ export class Reports {
     })
   }
 
-  /** Ends what is closed of these routes. A vertiport of which one route opens falls apart into its routes. */
+  /**
+   * Ends the closures of these routes. If one route of a closed vertiport opens, the closure is
+   * split into its other routes.
+   */
   #reopen(names: RouteNames, at: Seconds): void {
     const opened = this.#routes(names)
     for (const closure of this.closures.filter((one) => isInForce(one, at) && touches(one, opened))) {
@@ -192,7 +195,7 @@ export class Reports {
   }
 }
 
-/** The closures of a scenario of which something is true, one for each way. */
+/** The closures of a scenario for which a table is true, one per direction. */
 export function closuresOf(
   { vertiports, closures = [] }: Scenario,
   isOne: (closure: ScenarioClosure) => boolean = () => true,
@@ -211,7 +214,7 @@ export function indexed(things: { id: string }[]): Map<string, number> {
   return new Map(things.map(({ id }, at) => [id, at]))
 }
 
-/** The position of an id that the service gave, which is always one of the scenario. */
+/** The position of an id from the service, which is always part of the scenario. */
 export function known(positions: Map<string, number>, id: string): number {
   const at = positions.get(id)
   if (at === undefined) throw new Error(`the scenario of the day has no "${id}"`)
@@ -226,13 +229,13 @@ function isInForce({ since, until }: { since: Seconds; until?: Seconds }, at: Se
   return since <= at && (until === undefined || until > at)
 }
 
-/** Whether a closure closes just these routes. */
+/** Whether a closure covers exactly these routes. */
 function isOf(closure: ClosureRecord, routes: RouteRecord | { vertiport: number }): boolean {
   if ('vertiport' in closure) return 'vertiport' in routes && closure.vertiport === routes.vertiport
   return !('vertiport' in routes) && closure.from === routes.from && closure.to === routes.to
 }
 
-/** Whether a closure closes what opens, or a part of it. */
+/** Whether a closure covers routes that reopen, or some of them. */
 function touches(closure: ClosureRecord, opened: RouteRecord | { vertiport: number }): boolean {
   if ('vertiport' in closure) {
     if ('vertiport' in opened) return closure.vertiport === opened.vertiport

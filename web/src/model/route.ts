@@ -1,5 +1,5 @@
-// Addresses within the console, as the hash of its page: `#/day/ID/now?at=07:10:00`. A user with a link sees the same moment;
-// a token is never part of one.
+// Addresses within the console, as the hash of its page: `#/day/ID/now?at=07:10:00`. A link
+// reproduces what its author saw; a token is never part of it.
 
 export const dayViews = ['now', 'timeline', 'what-if', 'log', 'replay'] as const
 export const otherViews = ['days', 'replay', 'networks', 'studies'] as const
@@ -7,17 +7,20 @@ export const otherViews = ['days', 'replay', 'networks', 'studies'] as const
 export type DayView = (typeof dayViews)[number]
 export type OtherView = (typeof otherViews)[number]
 
-/** A view of a day, or one that needs none, with what it wants to remember; `isUnknown` if the address named no view that there is. */
+/**
+ * A view of a day, or one without a day, with its parameters. `isUnknown` is set if the address
+ * names no existing view.
+ */
 export type Route =
   | { view: DayView; day: string; params: Readonly<Record<string, string>>; isUnknown?: boolean }
   | { view: OtherView; day?: undefined; params: Readonly<Record<string, string>>; isUnknown?: boolean }
 
-/** Addresses that views had before, which links may still have. */
+/** Former addresses of views, which old links may contain. */
 const formerNames: Readonly<Record<string, OtherView>> = { editor: 'networks' }
 
 export const home: Route = { view: 'days', params: {} }
 
-/** Reads a hash; what cannot be understood leads to the list of days, or to what the day is now. */
+/** Parses a hash. An unknown address leads to the list of days, or to the day's current view. */
 export function parseRoute(hash: string): Route {
   const [path = '', query = ''] = hash.replace(/^#\/?/, '').split('?', 2)
   const [first = '', second = '', third = ''] = path.split('/').map(decoded)

@@ -1,5 +1,5 @@
-// A scenario as its file has it (vertifleet-scenario/1): the members that the console shows. docs/src/reference/files.md
-// describes all of them.
+// A scenario as in its file (vertifleet-scenario/1): the members that the console displays.
+// docs/src/reference/files.md describes all of them.
 
 /** A table by origin and destination. */
 export type Table = number[][]
@@ -19,11 +19,14 @@ export interface Scenario {
   aircraft_types: ScenarioAircraftType[]
   aircraft: { id: string; type: string; at: string }[]
   distance_mi: Table
-  /** A table, or one for each period. */
+  /** A table, or one per period. */
   fare: Table | Table[]
   passenger_cost: Table
   periods: string[]
-  /** Passengers by period, origin and destination; those who come, where these differ from the forecast. */
+  /**
+   * Passengers by period, origin and destination; the actual ones, if they differ from the
+   * forecast.
+   */
   demand: Table[]
   forecast?: Table[]
   energy_price: number[]
@@ -53,7 +56,7 @@ export interface ScenarioAircraftType {
   battery_kwh: number
   energy_kwh_per_mi: number
   charge_kw: number
-  /** Share of the capacity that is lost in an hour from take-off to arrival; 0 if absent. */
+  /** Share of the capacity that is lost per hour from take-off to arrival; 0 if absent. */
   self_discharge_per_h?: number
 }
 

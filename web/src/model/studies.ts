@@ -1,10 +1,10 @@
-// What a study says, as it is put into words and pictures. Statistics come from the service, but for the difference of two studies,
-// which it does not know to belong together.
+// The results of a study in text and pictures. Statistics come from the service. The exception is
+// the difference of two studies, which the service does not compare.
 
 import type { PolicyResult, StudyResult } from '../api/types'
 import { dollarDifference, dollars, percent } from './money'
 
-/** The best policy and what its lead over another one is. */
+/** The best policy and its lead over another one. */
 export interface Headline {
   policy: string
   profit: string
@@ -19,15 +19,15 @@ export interface Lead {
   /** The 95 % interval of the difference; undefined with one day. */
   interval: string | undefined
   p: string
-  /** Whether the difference is more than what chance makes in one of 20 studies. */
+  /** Whether the difference is significant at the 5 % level. */
   isSignificant: boolean
 }
 
 const SIGNIFICANCE = 0.05
-/** Smaller ones say nothing more. */
+/** Smaller values are not written out. */
 const LEAST_P = 0.001
 
-/** A reference knows the days and is no policy. */
+/** A reference uses the days in advance and is not a policy. */
 export function isReference({ sees }: PolicyResult): boolean {
   return sees === 'whole-day'
 }
@@ -46,7 +46,10 @@ export function headlineOf({ policies }: StudyResult): Headline | undefined {
   }
 }
 
-/** The lead over the first policy, or of the first over the next best one. Differences are against the first, so one is turned. */
+/**
+ * The lead over the first policy, or the lead of the first over the next best one. Differences are
+ * relative to the first policy, so the latter has its sign reversed.
+ */
 function leadOf(
   policies: PolicyResult[],
   best: PolicyResult,
@@ -69,13 +72,13 @@ function leadOf(
   }
 }
 
-/** `p = 0.021`, or `p < 0.001` where digits say nothing more. */
+/** `p = 0.021`, or `p < 0.001` for smaller values. */
 export function pStatement(p: number | null | undefined): string {
   if (p == null) return 'p unknown'
   return p < LEAST_P ? `p ${pValue(p)}` : `p = ${pValue(p)}`
 }
 
-/** The same without its name, for a column that has it. */
+/** The value without `p`, for a column with that heading. */
 export function pValue(p: number | null | undefined): string {
   if (p == null) return '–'
   return p < LEAST_P ? `< ${LEAST_P}` : p.toFixed(3)
@@ -93,9 +96,11 @@ export interface Interval {
   half_width_95: number | null
 }
 
-/** What a policy earns more a day in one study than in another with days of the same seeds, which pair them; undefined if the days are
- *  not as many. Student's factor for so many days is the one that the service has used: the half width that it gives over the standard
- *  deviation that it gives. */
+/**
+ * The difference in daily profit between two studies with days of the same seeds, which pair them;
+ * undefined if the numbers of days differ. The t factor for this number of days is taken from the
+ * service's result: its half width divided by its standard deviation.
+ */
 export function pairedDifference(one: PolicyResult, other: PolicyResult): Interval | undefined {
   const differences = one.daily_profit_usd.map((profit, day) => profit - (other.daily_profit_usd[day] ?? NaN))
   if (one.daily_profit_usd.length !== other.daily_profit_usd.length || differences.length === 0)
@@ -114,12 +119,15 @@ function studentsFactor({
   return half_width_95 / standard_deviation
 }
 
-/** Whether a mean differs from 0 by more than what chance makes in one of 20 studies. */
+/** Whether a mean differs significantly from 0 (5 % level). */
 export function isMoreThanChance({ mean, half_width_95 }: Interval): boolean {
   return half_width_95 !== null && Math.abs(mean) > half_width_95
 }
 
-/** What one policy earned more than another on each day, the best day first. Days are numbered from 0. */
+/**
+ * The difference in profit between two policies on each day, the best day first. Days are numbered
+ * from 0.
+ */
 export function dailyDifferences(
   policy: PolicyResult,
   first: PolicyResult,
@@ -131,14 +139,14 @@ export function dailyDifferences(
   return differences.toSorted((one, other) => other.difference_usd - one.difference_usd)
 }
 
-/** Dollars on an axis: its ends and round steps between. */
+/** An axis of dollars: its ends and round ticks between them. */
 export interface Axis {
   from: number
   to: number
   ticks: number[]
 }
 
-/** An axis around values, with about so many ticks. */
+/** An axis around values, with about this number of ticks. */
 export function axisAround(values: readonly number[], ticks: number): Axis {
   const [least, most] = [Math.min(...values), Math.max(...values)]
   const span = most - least || Math.max(1, Math.abs(most))

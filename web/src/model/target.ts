@@ -1,8 +1,12 @@
-// What a person points at: an aircraft, one of its legs, or a vertiport. Lists, maps and timelines share one selection.
+// The selected object: an aircraft, one of its legs, or a vertiport. Lists, maps and timelines
+// share one selection.
 
 import type { Seconds } from './record'
 
-/** A leg is named by its aircraft and the time of its decision, which stay while the record is rebuilt. */
+/**
+ * A leg is identified by its aircraft and the time of its decision, which stay the same when the
+ * record is rebuilt.
+ */
 export type Target =
   | { kind: 'aircraft'; aircraft: number }
   | { kind: 'leg'; aircraft: number; decided: Seconds }
@@ -16,12 +20,12 @@ export function isSame(one: Target | undefined, other: Target | undefined): bool
   return one.kind === other.kind && one.aircraft === other.aircraft
 }
 
-/** The aircraft that is meant, by itself or through one of its legs. */
+/** The selected aircraft, either directly or through one of its legs. */
 export function aircraftMeant(target: Target | undefined): number | undefined {
   return target === undefined || target.kind === 'vertiport' ? undefined : target.aircraft
 }
 
-/** The vertiport that is meant. */
+/** The selected vertiport. */
 export function vertiportMeant(target: Target | undefined): number | undefined {
   return target?.kind === 'vertiport' ? target.vertiport : undefined
 }

@@ -1,8 +1,8 @@
-// Times of a day. Inside, a time is seconds since midnight; a person sees HH:MM:SS.
+// Times of a day. Internally a time is seconds since midnight; users see HH:MM:SS.
 
 import type { Seconds } from './record'
 
-/** The bound of the service: times are before 100:00:00. */
+/** The service's limit: times are before 100:00:00. */
 const MOST_S = 100 * 3600
 
 /** Reads `HH:MM:SS`, `H:MM` or seconds since midnight; undefined if it is none of these. */
@@ -13,7 +13,7 @@ export function parseTime(text: string | number): Seconds | undefined {
   return Number(parts[1]) * 3600 + Number(parts[2]) * 60 + Number(parts[3] ?? 0)
 }
 
-/** Reads a time that the service wrote, which is never wrong. */
+/** Parses a time from the service, which is always valid. */
 export function timeOf(moment: string | number): Seconds {
   const time = parseTime(moment)
   if (time === undefined) throw new Error(`the service writes times as HH:MM:SS, and this is "${moment}"`)
@@ -26,12 +26,12 @@ export function clock(time: Seconds): string {
   return `${pad(Math.floor(whole / 3600))}:${pad(Math.floor(whole / 60) % 60)}:${pad(whole % 60)}`
 }
 
-/** Writes `HH:MM`, for axes and lists where seconds say nothing. */
+/** Formats `HH:MM`, for axes and lists that need no seconds. */
 export function clockMinutes(time: Seconds): string {
   return clock(time).slice(0, 5)
 }
 
-/** Writes a duration in words of two units at most: `45 s`, `12 min`, `1 h 05 min`. */
+/** Formats a duration in at most two units: `45 s`, `12 min`, `1 h 05 min`. */
 export function duration(seconds: number): string {
   const whole = Math.round(Math.abs(seconds))
   if (whole < 90) return `${whole} s`

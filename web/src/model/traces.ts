@@ -1,4 +1,5 @@
-// A finished day as a record: a scenario file and the trace of a policy on it. docs/src/reference/files.md describes both.
+// A finished day as a record, from a scenario file and a policy's trace of it.
+// docs/src/reference/files.md describes both.
 
 import { parseCsv } from './csv'
 import { frameOf } from './live'
@@ -8,7 +9,7 @@ import { closuresOf, indexed } from './reports'
 import type { Scenario } from './scenario'
 import { parseTime, timeOf } from './time'
 
-/** Why a file is not what it should be. The view has words for each. */
+/** Why a file was rejected. The view has a text for each. */
 export type FileFault =
   | { what: 'no-json' }
   | { what: 'no-scenario'; format: string | undefined }
@@ -22,7 +23,7 @@ export type FileFault =
   | { what: 'unreadable'; line: number; column: string; value: string }
   | { what: 'out-of-order'; line: number }
 
-/** Files of a person that cannot be shown: what is wrong with each. */
+/** User files that cannot be shown, with the fault of each. */
 export class FilesError extends Error {
   constructor(readonly faults: readonly FileError[]) {
     super(faults.map(({ message }) => message).join('; '))
@@ -30,11 +31,11 @@ export class FilesError extends Error {
   }
 }
 
-/** A file of a person that cannot be shown. */
+/** A user file that cannot be shown. */
 export class FileError extends Error {
   constructor(
     readonly fault: FileFault,
-    /** What the file is called, where it is one of several. */
+    /** The name of the file, if it is one of several. */
     readonly file?: string,
   ) {
     super(JSON.stringify(fault))
@@ -42,7 +43,7 @@ export class FileError extends Error {
   }
 }
 
-/** Letters of a wrong file that are shown. */
+/** The number of characters quoted from a wrong file. */
 const MOST_QUOTED = 40
 
 const COLUMNS = [
@@ -58,24 +59,27 @@ const COLUMNS = [
   'ready',
 ]
 
-/** Whether a text is written as scenario files are, whatever it says. */
+/** Whether a text looks like a scenario file, valid or not. */
 export function isJson(text: string): boolean {
   return /^\uFEFF?\s*[{[]/.test(text)
 }
 
-/** Whether a text begins as a trace does. */
+/** Whether a text begins like a trace. */
 export function isTrace(text: string): boolean {
   return /^\uFEFF?"?time"?,"?aircraft"?,/.test(text)
 }
 
-/** What is wrong with a text that is no trace: how it begins. */
+/** The fault of a text that is not a trace: how it begins. */
 export function noTrace(text: string): FileError {
   const [line = ''] = text.replace(/^\uFEFF/, '').split(/\r?\n/)
   const begins = line.length > MOST_QUOTED ? `${line.slice(0, MOST_QUOTED)}…` : line
   return new FileError({ what: 'no-trace', begins })
 }
 
-/** Reads a scenario file. Only what pictures need is looked at: the program is what checks scenarios. */
+/**
+ * Parses a scenario file. Only the members that pictures need are checked; the program validates
+ * scenarios.
+ */
 export function parseScenario(text: string): Scenario {
   let scenario: unknown
   try {
@@ -87,7 +91,7 @@ export function parseScenario(text: string): Scenario {
   return scenario
 }
 
-/** What a file says that it is. */
+/** The format that a file declares. */
 function formatOf(value: unknown): string | undefined {
   const format = (value as { format?: unknown } | null)?.format
   return typeof format === 'string' ? format : undefined
@@ -102,7 +106,7 @@ function isScenario(value: unknown): value is Scenario {
   )
 }
 
-/** The day as the trace says it was. */
+/** The day as recorded in the trace. */
 export function recordOf(scenario: Scenario, trace: string, policy?: string): DayRecord {
   return {
     ...frameOf(scenario),
@@ -113,7 +117,10 @@ export function recordOf(scenario: Scenario, trace: string, policy?: string): Da
   }
 }
 
-/** What the fleet, the stands and the chargers cost whatever is flown, dollars: no leg has a part in it, but the profit of the day does. */
+/**
+ * The daily cost of the fleet, stands and chargers in dollars. It does not depend on flights, so it
+ * is part of the day's profit but not of any leg's.
+ */
 export function fixedCost(scenario: Scenario): number {
   const sites = scenario.vertiports.map(
     (vertiport) =>
@@ -185,7 +192,10 @@ class TraceReader {
     return leg
   }
 
-  /** A flight that arrives late has waited on the ground (docs/src/concepts/model.md, take-off delays). */
+  /**
+   * A flight that arrives late was delayed on the ground (docs/src/concepts/model.md, take-off
+   * delays).
+   */
   #compareWithPlan(leg: LegRecord, { flight_s, charge_s }: Nominal): void {
     const arrives = leg.decided + flight_s
     const planned = { departs: leg.decided, arrives, ready: arrives + charge_s }

@@ -11,13 +11,13 @@ export interface WaitingPair {
   passengers: number
 }
 
-/** Follows a day: going on is cheap, going back counts from the beginning of the day. */
+/** Follows a day. Moving forward is cheap; moving back recounts from the beginning of the day. */
 export class Waiting {
   readonly #decided: Float64Array
   #boarding: Boarding
-  /** How many legs have been counted. */
+  /** The number of legs counted so far. */
   #counted = 0
-  /** The periods whose passengers the pairs are. */
+  /** The periods whose passengers the pairs contain. */
   #periods = ''
   #pairs: WaitingPair[] = []
 
@@ -26,7 +26,7 @@ export class Waiting {
     this.#boarding = new Boarding(record)
   }
 
-  /** The pairs with passengers at a time. The list is the same object as long as nothing has changed. */
+  /** The pairs with passengers at a time. The list is the same object while nothing changes. */
   pairs(time: Seconds): readonly WaitingPair[] {
     const periods = this.#boarding.periodsAt(time).join()
     const taken = countUpTo(this.#decided, time)

@@ -1,16 +1,19 @@
-// Changes that a day might see, as a person puts them together, and what the service is asked about them.
+// The changes of a what-if, as a user combines them, and the request to the service.
 
 import type { Event, MoreAircraft, Outlook, RouteNames, WhatIf } from '../api/types'
 import type { Scenario } from './scenario'
 
-/** One change. Events can be reported to the day as they are; the others are about another fleet or other vertiports. */
+/**
+ * One change. Events can be reported to the day as they are; the other changes concern the fleet or
+ * the stands.
+ */
 export type Change = { id: number } & (
   | { kind: 'event'; event: Event }
   | { kind: 'aircraft'; aircraft: MoreAircraft }
   | { kind: 'stands'; vertiport: string; stands: number }
 )
 
-/** What the service is asked: the changes together, and the policy that would decide. */
+/** The request to the service: all changes together, and the policy that would decide. */
 export function askedOf(changes: readonly Change[], policy: string): WhatIf {
   const events = eventsOf(changes)
   const aircraft = changes.flatMap((one) => (one.kind === 'aircraft' ? [one.aircraft] : []))
@@ -29,7 +32,7 @@ export function eventsOf(changes: readonly Change[]): Event[] {
   return changes.flatMap((one) => (one.kind === 'event' ? [one.event] : []))
 }
 
-/** The scenario with the aircraft that the fleet might have and the stands that vertiports might have. */
+/** The scenario with the additional aircraft and the changed stands of a what-if. */
 export function scenarioWith(scenario: Scenario, asked: WhatIf): Scenario {
   const first = scenario.aircraft_types[0]?.id ?? ''
   const more = (asked.aircraft ?? []).map(({ id, at, type }) => ({ id, at, type: type ?? first }))
@@ -40,7 +43,7 @@ export function scenarioWith(scenario: Scenario, asked: WhatIf): Scenario {
   return { ...scenario, aircraft: [...scenario.aircraft, ...more], vertiports }
 }
 
-/** An id for another aircraft, as the program names those of a fleet. */
+/** An id for an additional aircraft, in the program's naming scheme. */
 export function freshId(taken: readonly string[]): string {
   for (let number = taken.length + 1; ; number++) {
     const id = `A${String(number).padStart(2, '0')}`
@@ -48,12 +51,12 @@ export function freshId(taken: readonly string[]): string {
   }
 }
 
-/** Routes as an event names them: all of a vertiport, or one way from it. */
+/** Routes in the form of an event: all routes of a vertiport, or one route. */
 export function routesOf(from: string, to: string): RouteNames {
   return to === '' ? { vertiport: from } : { from, to }
 }
 
-/** A number of the rest of the day in both outlooks. */
+/** A figure of the rest of the day in both outlooks. */
 export interface Compared {
   name:
     | 'profit'
@@ -67,11 +70,11 @@ export interface Compared {
     | 'loadFactor'
   asItIs: number | undefined
   whatIf: number | undefined
-  /** Whether more of it is better for the operator; neither, where that depends. */
+  /** Whether a higher value is better for the operator; undefined if that depends. */
   isGood: boolean | undefined
 }
 
-/** Both outlooks number by number. */
+/** Both outlooks, figure by figure. */
 export function compared(asItIs: Outlook, whatIf: Outlook): Compared[] {
   const row = (
     name: Compared['name'],

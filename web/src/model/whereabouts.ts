@@ -1,15 +1,15 @@
-// Where departures lead and landings are. Such events name a vertiport only if it is another one than was decided, so it is taken from
-// what was said of the aircraft before.
+// The destinations of departures and the places of landings. Their events name a vertiport only if
+// it differs from the decided one, so it is taken from earlier events of the aircraft.
 
 import type { TakenEvent } from '../api/types'
 
 export class Whereabouts {
-  /** Where each aircraft was sent last. */
+  /** The latest destination of each aircraft. */
   readonly #sent = new Map<string, string>()
-  /** Kept beside the events, and gone with them. */
+  /** Keyed by event, so that an entry is freed with its event. */
   readonly #places = new WeakMap<TakenEvent, string>()
 
-  /** Takes the events of a day, each once and in their order. */
+  /** Applies an event of the day; each must be passed once and in order. */
   take(taken: TakenEvent): void {
     const { event } = taken
     if (event.type === 'undone') this.#sent.delete(event.aircraft)
@@ -23,7 +23,9 @@ export class Whereabouts {
     }
   }
 
-  /** The vertiport of a departure or a landing; undefined for other events, and if nothing was said of it. */
+  /**
+   * The vertiport of a departure or a landing; undefined for other events, and if it is unknown.
+   */
   placeOf(taken: TakenEvent): string | undefined {
     return this.#places.get(taken)
   }

@@ -1,4 +1,4 @@
-// Changes of the demand of a network: one pair, one period, one weight, or the whole model.
+// Changes to the demand of a network: one pair, one period, one weight, or the whole model.
 
 import { at } from '../arrays'
 import { asDaily, byPeriod, rounded } from './demand'
@@ -20,7 +20,10 @@ export function hasShares(demand: DemandDraft | undefined): boolean {
   return demand !== undefined && demand.model !== 'equation1' && demand.model !== 'uniform'
 }
 
-/** Gives a pair so many passengers a day. Where they are given by period, all of its periods change by the same factor. */
+/**
+ * Sets the passengers of a pair per day. If they are given by period, all of its periods change by
+ * the same factor.
+ */
 export function setPair(file: TomlFile, from: number, to: number, passengers: number): Splice[] {
   const draft = draftOf(file.value)
   const amount = rounded(Math.max(0, passengers), PASSENGER_DIGITS)
@@ -28,7 +31,7 @@ export function setPair(file: TomlFile, from: number, to: number, passengers: nu
   return draft.demand?.model === 'hourly' ? setHourlyPair(file, draft, draft.demand, from, to, amount) : []
 }
 
-/** Gives a period so many passengers in all. */
+/** Sets the total passengers of a period. */
 export function setPeriod(file: TomlFile, period: number, passengers: number): Splice[] {
   const draft = draftOf(file.value)
   const { demand } = draft
@@ -41,7 +44,7 @@ export function setPeriod(file: TomlFile, period: number, passengers: number): S
   return set(file, ['daily_demand', 'shares_percent', period], rounded(wanted, PERCENT_DIGITS))
 }
 
-/** The file with its demand as a table of pairs and shares of the day, whatever model it had. */
+/** The file with its demand converted to a table of pairs and shares of the day, from any model. */
 export function withDailyDemand(file: TomlFile): string {
   const draft = draftOf(file.value)
   const { shares, passengers } = asDaily(draft)
@@ -58,7 +61,7 @@ export function withDailyDemand(file: TomlFile): string {
   return apply(both.text, remove(both, [table]))
 }
 
-/** A percent of a day's passengers where no period says it. */
+/** The passengers per percent of the shares over the whole day, for a period whose share is 0. */
 function passengersOfPercent(draft: Draft): number {
   const all = draft.demand !== undefined && 'shares' in draft.demand ? draft.demand.shares : []
   const percent = all.reduce((total, one) => total + one, 0)
@@ -83,7 +86,10 @@ function setHourlyPair(
   return append(file, path, { from: fromId, to: toId, passengers: spread })
 }
 
-/** An amount spread over the day as the pair's passengers were, or else as all passengers are, or else evenly. */
+/**
+ * Distributes an amount over the day like the pair's passengers, otherwise like all passengers,
+ * otherwise evenly.
+ */
 function spreadLike(former: readonly number[], all: readonly number[], amount: number): number[] {
   const whole = (values: readonly number[]) => values.reduce((total, one) => total + one, 0)
   const shape = whole(former) > 0 ? former : whole(all) > 0 ? all : all.map(() => 1)

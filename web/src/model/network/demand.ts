@@ -1,5 +1,5 @@
-// The mean passengers of each pair and period that a demand model stands for, as docs/src/reference/files.md defines the models. The
-// service draws days from them; here they only become pictures and tables.
+// The mean passengers of each pair and period in a demand model, as defined in
+// docs/src/reference/files.md. The service draws days from them; here they are only displayed.
 
 import { at } from '../arrays'
 import type { DemandDraft, Draft } from './draft'
@@ -33,14 +33,17 @@ export function byPair(draft: Draft): number[][] {
   return table(size, (from, to) => sum(periods, (period) => mean(period, from, to)))
 }
 
-/** Passengers of all pairs together in each period. */
+/** Passengers of all pairs in each period. */
 export function byPeriod(draft: Draft): number[] {
   const mean = meanDemand(draft)
   const size = draft.vertiports.length
   return draft.periods.map((_, period) => sum(size, (from) => sum(size, (to) => mean(period, from, to))))
 }
 
-/** The same demand as a table of a day's passengers with shares of the periods, for users who want to change single pairs. */
+/**
+ * The same demand as a table of daily passengers with shares of the periods, for users who want to
+ * change single pairs.
+ */
 export function asDaily(draft: Draft): { shares: number[]; passengers: number[][] } {
   const { demand } = draft
   if (demand?.model === 'daily') return demand
@@ -62,7 +65,7 @@ export function rounded(value: number, digits: number): number {
   return Number(value.toFixed(digits))
 }
 
-/** The product of two vertiports' weights, scaled so that all pairs together have the total. */
+/** The product of two vertiports' weights, scaled so that the sum over all pairs is the total. */
 function gravity({ shares, total, weights }: Extract<DemandDraft, { model: 'gravity' }>): MeanDemand {
   const weight = sum(weights.length, (one) => at(weights, one))
   const squares = sum(weights.length, (one) => at(weights, one) ** 2)
@@ -78,7 +81,7 @@ function hourly(draft: Draft, { pairs }: Extract<DemandDraft, { model: 'hourly' 
   return (period, from, to) => byIds.get(JSON.stringify([ids[from], ids[to]]))?.[period] ?? 0
 }
 
-/** Eq. 1: the first row that holds. */
+/** Eq. 1: the first row that applies. */
 function equation1(draft: Draft, model: Extract<DemandDraft, { model: 'equation1' }>): MeanDemand {
   const busy = draft.vertiports.map((one) => one.busy)
   return (period, from, to) => {

@@ -1,5 +1,6 @@
-// A network file as forms show it: what is there and makes sense, in one shape. A file that a user is writing has gaps, so
-// everything may be absent; whether it is a network is for the service to say.
+// A network file in the form that the editor displays: all valid values, in one shape. A file may
+// be incomplete while a user edits it, so every value may be absent. The service decides whether it
+// is a valid network.
 
 import { parseTime } from '../time'
 import type { Seconds } from '../record'
@@ -26,7 +27,7 @@ export interface FleetDraft {
   count: number | undefined
 }
 
-/** Passengers a period at the three levels of Eq. 1. */
+/** Passengers per period at the three levels of Eq. 1. */
 export interface Level {
   mean: number
   sd: number
@@ -39,7 +40,7 @@ export type DemandDraft =
   | { model: 'equation1'; morning: number; evening: number; peak: Level; busyPairs: Level; otherwise: Level }
   | { model: 'uniform'; least: number; most: number }
 
-/** The member of the file that holds a demand model. */
+/** The member of the file that contains each demand model. */
 export const demandMembers = {
   daily: 'daily_demand',
   gravity: 'daily_demand',
@@ -53,10 +54,10 @@ export interface Draft {
   vertiports: VertiportDraft[]
   types: TypeDraft[]
   fleet: FleetDraft[]
-  /** The starts of the demand periods, of those that can be read. */
+  /** The starts of the demand periods that can be read. */
   periods: Seconds[]
   demand: DemandDraft | undefined
-  /** Whether places are degrees: all vertiports have them, or none. */
+  /** Whether places are degrees: either all vertiports have them or none. */
   isGlobe: boolean
 }
 
@@ -80,7 +81,7 @@ export function draftOf(value: unknown): Draft {
   }
 }
 
-/** A member of the values by its path; undefined if it is not there. */
+/** A member of the values by its path; undefined if it is missing. */
 export function member(value: unknown, path: readonly (string | number)[]): unknown {
   return path.reduce<unknown>((within, step) => {
     if (typeof step === 'number') return Array.isArray(within) ? (within as unknown[])[step] : undefined

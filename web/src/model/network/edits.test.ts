@@ -8,7 +8,7 @@ const cities = ['san-francisco', 'los-angeles', 'dallas', 'paris']
 const shipped = ['paper', 'disrupted', 'new-york', 'large', 'as-coded', ...cities]
 const read = (name: string) => new TomlFile(readFileSync(new URL(`${name}.toml`, networks), 'utf8'))
 
-/** The lines that a change took away and those that it brought. */
+/** The lines that a change removed and those that it added. */
 function changed(file: TomlFile, splices: Splice[]): { gone: string[]; come: string[]; file: TomlFile } {
   const after = new TomlFile(apply(file.text, splices))
   const [before, now] = [file.text.split('\n'), after.text.split('\n')]

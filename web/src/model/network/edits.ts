@@ -1,20 +1,20 @@
-// Changes of a file as pieces of text, so that everything else stays as it was to the last space. Pieces of several changes are
-// found in one text and put in together.
+// Changes to a file as text edits, so that everything else stays the same to the last space. The
+// edits of several changes refer to the same text and are applied together.
 
 import { key, lines, literal, type Literal } from './literals'
 import { beginsWith, keysOf, spanOf, type Content, type Pair, type Path, type Table, TomlFile } from './toml'
 
-/** A part of the text, and what takes its place. */
+/** A part of the text, and its replacement. */
 export interface Splice {
   from: number
   to: number
   text: string
 }
 
-/** A table that is added: its members in the order in which they are written. */
+/** The members of a new table, in the order in which they are written. */
 export type Members = Readonly<Record<string, Literal | undefined>>
 
-/** The text after changes that were all found in the text before. */
+/** The text after edits that all refer to the text before. */
 export function apply(text: string, splices: readonly Splice[]): string {
   const ordered = [...splices].sort((one, other) => one.from - other.from || one.to - other.to)
   let [made, end] = ['', 0]
@@ -26,7 +26,7 @@ export function apply(text: string, splices: readonly Splice[]): string {
   return made + text.slice(end)
 }
 
-/** Gives a member a value, whether it is there or not. */
+/** Sets a member to a value, whether or not it exists. */
 export function set(file: TomlFile, path: Path, value: Literal): Splice[] {
   const found = file.find(path)
   if (found !== undefined && 'value' in found) return replaced(file, found.value, value)
@@ -39,7 +39,7 @@ export function set(file: TomlFile, path: Path, value: Literal): Splice[] {
   return [besideDotted(file, parent, name, value) ?? intoRoot(file, parent, line)]
 }
 
-/** Removes a member, a table with all that is in it, or an entry of a list. */
+/** Removes a member, a table with all of its members, or an entry of a list. */
 export function remove(file: TomlFile, path: Path): Splice[] {
   const found = file.find(path)
   const index = path.at(-1)
@@ -53,7 +53,7 @@ export function remove(file: TomlFile, path: Path): Splice[] {
   return tables.map((table) => withoutTable(file, table))
 }
 
-/** Adds an entry to a list, which is written with a heading for each entry or within brackets. */
+/** Adds an entry to a list, which may have a heading per entry or brackets. */
 export function append(file: TomlFile, path: Path, entry: Literal | Members): Splice[] {
   const found = file.find(path)
   if (found !== undefined && 'value' in found && found.value.type === 'TOMLArray')
@@ -67,7 +67,7 @@ export function append(file: TomlFile, path: Path, entry: Literal | Members): Sp
   return [blockBehind(file, last, block)]
 }
 
-/** Adds a table with a heading of its own behind another one, or at the end. */
+/** Adds a table with a heading after another one, or at the end. */
 export function addTable(file: TomlFile, path: Path, members: Members, after: Path = []): Splice[] {
   const heading = `[${path.map((step) => key(String(step))).join('.')}]`
   const last =
@@ -75,7 +75,7 @@ export function addTable(file: TomlFile, path: Path, members: Members, after: Pa
   return [blockBehind(file, last, [heading, ...lines(members, newlineOf(file))])]
 }
 
-/** A heading with its members behind a table, with a line between them. */
+/** A heading with its members after a table, with an empty line between them. */
 function blockBehind(file: TomlFile, last: Table | undefined, block: string[]): Splice {
   const newline = newlineOf(file)
   if (last !== undefined) {
@@ -98,7 +98,7 @@ function replaced(file: TomlFile, node: Content, value: Literal): Splice[] {
   const [from, to] = node.range
   const text = literal(value, newlineOf(file))
   if (file.text.slice(from, to) === text) return []
-  // A remark behind the value stays in its column, if there is room.
+  // A comment after the value stays in its column, if there is room.
   const gap = /^[ ]{2,}(?=#)/.exec(file.text.slice(to))?.[0]
   if (gap === undefined || text.includes('\n')) return [{ from, to, text }]
   const width = Math.max(2, gap.length - (text.length - (to - from)))
@@ -113,13 +113,13 @@ function intoInlineTable(table: Content, name: string, value: Literal): Splice[]
   return [{ from: last.range[1], to: last.range[1], text: `, ${pair}` }]
 }
 
-/** A line behind the line on which something ends. */
+/** Adds a line after the line on which something ends. */
 function behind(file: TomlFile, { range }: { range: readonly [number, number] }, line: string): Splice {
   const at = endOfLine(file, range[1])
   return { from: at, to: at, text: newlineOf(file) + line }
 }
 
-/** Where the table is written with dots (`gravity.passengers = 1`), the new member is written so too. */
+/** If the table is written with dotted keys (`gravity.passengers = 1`), the new member is too. */
 function besideDotted(file: TomlFile, parent: Path, name: string, value: Literal): Splice | undefined {
   const holders = [{ begin: [] as Path, body: file.rootPairs }].concat(
     file.tables.map(({ resolvedKey, body }) => ({ begin: resolvedKey, body })),
@@ -135,7 +135,7 @@ function besideDotted(file: TomlFile, parent: Path, name: string, value: Literal
   return undefined
 }
 
-/** A member of the file itself, or of a table that is not there yet. */
+/** A member of the file itself, or of a table that does not exist yet. */
 function intoRoot(file: TomlFile, parent: Path, line: string): Splice {
   if (parent.length > 0)
     return blockBehind(file, undefined, [`[${parent.map(String).map(key).join('.')}]`, line])
@@ -152,7 +152,10 @@ function withoutPair(file: TomlFile, pair: Pair): Splice[] {
   return [withoutOneOf(siblings, siblings.indexOf(pair))]
 }
 
-/** Remarks right above a table are its own, except above the first of a list, where they may be about all of it. */
+/**
+ * Comments directly above a table belong to it. Above the first table of a list they may be about
+ * the whole list and stay.
+ */
 function withoutTable(file: TomlFile, table: Table): Splice {
   const begin = table.range[0]
   const isFirst = table.kind === 'array' && table.resolvedKey.at(-1) === 0
@@ -181,7 +184,7 @@ function withoutElement(list: Content, index: number): Splice {
   return only ? { from: list.range[0], to: list.range[1], text: '[]' } : withoutOneOf(list.elements, index)
 }
 
-/** Takes one of several parts out, with its comma and with a remark behind it. */
+/** Removes one of several parts with its comma and its trailing comment. */
 function withoutOneOf(parts: readonly { range: readonly [number, number] }[], index: number): Splice {
   const [before, part, next] = [parts[index - 1], parts[index], parts[index + 1]]
   if (part === undefined) throw new Error('there is no such entry')
@@ -201,7 +204,7 @@ function beginOfLine(file: TomlFile, offset: number): number {
   return file.text.lastIndexOf('\n', offset - 1) + 1
 }
 
-/** Where the remarks begin that stand right above a line. */
+/** Where the comments directly above a line begin. */
 function beginWithRemarks(file: TomlFile, offset: number): number {
   let begin = beginOfLine(file, offset)
   while (begin > 0) {
@@ -212,7 +215,7 @@ function beginWithRemarks(file: TomlFile, offset: number): number {
   return begin
 }
 
-/** Behind the last character of a line, its end not included. */
+/** The offset after the last character of a line, excluding the line ending. */
 function endOfLine(file: TomlFile, offset: number): number {
   const end = file.text.indexOf('\n', offset)
   if (end < 0) return file.text.length

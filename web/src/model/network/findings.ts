@@ -1,5 +1,5 @@
-// What the service finds wrong with a network, and where that stands in the file. The service names the member in its message, and
-// this finds it: the member's path leads to the field of a form and to a line of the text.
+// The service's findings about a network, with their positions in the file. A message of the
+// service names the member. Its path leads to the field of a form and to a line of the text.
 
 import { plainly } from '../../text/findings'
 import { draftOf } from './draft'
@@ -7,7 +7,7 @@ import { beginsWith, type Path, type Step, type TomlFile } from './toml'
 
 export interface Finding {
   kind: 'error' | 'warning'
-  /** The code of the error index; empty for a warning and for what is no TOML. */
+  /** The code of the error index; empty for a warning and for invalid TOML. */
   code: string
   message: string
   hint: string | undefined
@@ -17,7 +17,7 @@ export interface Finding {
   line: number | undefined
 }
 
-/** What the service refused a network for. */
+/** Why the service refused a network. */
 export interface Refusal {
   code: string
   detail: string
@@ -27,10 +27,10 @@ export interface Refusal {
 const ORIGIN = 'the network: '
 const NAMED = /^(vertiport|aircraft type) "(.*)"$/
 const MEMBER = /^[a-z_]+(?:\[\d+\])*$/
-/** The member at the beginning of the last part, before the rule that it breaks. */
+/** The member at the start of the last part, before the rule that it violates. */
 const BROKEN = /^([a-z_]+(?:\[\d+\])*) (?:must|names|has)\b/
 const ENTRY_BROKEN = /^(vertiport|aircraft type) "([^"]*)" must\b/
-/** How the reader of TOML says where it stopped. */
+/** The position in an error message of the TOML reader. */
 const AT_LINE = /^line (\d+), column (\d+): (?:([a-z_0-9.[\]]+): )?(.*)$/s
 
 export function findingOf({ code, detail, hint }: Refusal, file: TomlFile): Finding {
@@ -58,7 +58,7 @@ export function findingOfWarning(message: string, file: TomlFile): Finding {
   return { kind: 'warning', code: '', message, hint: undefined, path, line: lineOf(file, path) }
 }
 
-/** The finding that is about a member or about something within it. */
+/** The finding about a member or about something within it. */
 export function findingAt(findings: readonly Finding[], path: Path): Finding | undefined {
   return findings.find((finding) => finding.path.length > 0 && beginsWith(finding.path, path))
 }
@@ -68,7 +68,7 @@ function lineOf(file: TomlFile, path: Path): number | undefined {
   return span === undefined ? undefined : file.line(span.from)
 }
 
-/** Reads `daily_demand: gravity: weights[2] must be at least 0` and the like. */
+/** Parses messages such as `daily_demand: gravity: weights[2] must be at least 0`. */
 function pathOf(message: string, file: TomlFile): Path {
   const parts = message.split(': ')
   const path: Step[] = []
@@ -86,7 +86,7 @@ function pathOf(message: string, file: TomlFile): Path {
   return withinDemand(path, file)
 }
 
-/** Messages about periods do not say which table they stand in. */
+/** Messages about periods do not name the table that contains them. */
 function withinDemand(path: Path, file: TomlFile): Path {
   if (path[0] !== 'periods') return path
   const tables = ['daily_demand', 'hourly_demand', 'demand', 'uniform_demand']

@@ -1,13 +1,13 @@
-// What was typed before, so that it can be taken back. Strokes of one field that follow each other soon are one step.
+// The undo history of the text. Quick successive edits of one field are one step.
 
 export interface Step {
   readonly text: string
-  /** What changed; steps with the same key that follow each other soon are one. */
+  /** The edited field; quick successive steps with the same key are merged. */
   readonly key: string
   readonly at_ms: number
 }
 
-/** A pause after which the next stroke is a step of its own. */
+/** After a pause of this length the next edit is a new step. */
 const PAUSE_MS = 1500
 const MOST_STEPS = 200
 
@@ -36,7 +36,7 @@ export class History {
     return this.#future.length > 0
   }
 
-  /** Another text takes the place of this one. */
+  /** Replaces the text with another one. */
   then(text: string, key: string, at_ms: number): History {
     if (text === this.text) return this
     const last = this.#past.at(-1)

@@ -1,5 +1,5 @@
-// A network file in pieces that are shown in different colours. It reads letters and not TOML, so that a text that is being typed has
-// colours too.
+// Splits a network file into pieces with different colours. It is a simple scanner and not a TOML
+// parser, so incomplete text is coloured too.
 
 export interface Ink {
   kind: 'remark' | 'heading' | 'string' | 'number' | 'plain'

@@ -1,9 +1,10 @@
-// Values as TOML writes them, as a person would: one line where it is short, a row a line where it is a table of numbers.
+// Formats TOML values as a person would write them: short values on one line, tables of numbers
+// with one row per line.
 
 export type Literal =
   string | number | boolean | readonly Literal[] | { readonly [member: string]: Literal | undefined }
 
-/** Lists that would be longer are broken. */
+/** Longer lists are broken into lines. */
 const LONGEST_LINE = 100
 const INDENT = '    '
 
@@ -21,7 +22,7 @@ export function lines(table: Readonly<Record<string, Literal | undefined>>, newl
   return pairs(table, newline)
 }
 
-/** A key, in quotes where it needs them. */
+/** A key, quoted if necessary. */
 export function key(name: string): string {
   return /^[A-Za-z0-9_-]+$/.test(name) ? name : quoted(name)
 }
@@ -32,7 +33,10 @@ function pairs(table: Readonly<Record<string, Literal | undefined>>, newline = '
   )
 }
 
-/** The shortest text that reads as the same number; never with an exponent, which is unusual in such a file. */
+/**
+ * The shortest text that parses to the same number. It never has an exponent, which is unusual in
+ * such files.
+ */
 function number(value: number): string {
   const text = String(value)
   return text.includes('e') ? value.toFixed(20).replace(/\.?0+$/, '') : text
@@ -55,7 +59,7 @@ function list(values: readonly Literal[], newline: string): string {
   return `[${newline}${broken.map((line) => `${INDENT}${line},${newline}`).join('')}]`
 }
 
-/** Texts joined into lines that are as full as may be. */
+/** Joins texts into lines that are as full as possible. */
 function filled(texts: string[]): string[] {
   const full: string[] = []
   for (const text of texts) {

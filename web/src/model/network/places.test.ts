@@ -102,7 +102,7 @@ describe('vertiports', () => {
 
 describe('demand', () => {
   it('is that of the service in all models', () => {
-    // The sums that the service says of the shipped networks.
+    // The totals that the service reports for the shipped networks.
     expect(sum(byPeriod(draftOf(read('new-york').value)))).toBeCloseTo(7752, 6)
     expect(sum(byPeriod(draftOf(read('paper').value)))).toBe(26100)
     const mean = meanDemand(draftOf(read('paper').value))

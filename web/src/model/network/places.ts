@@ -1,5 +1,6 @@
-// Changes of the vertiports of a network with all that refers to them: a vertiport has rows in tables of demand, a weight, delays,
-// corridors and closures, and a network in which some of them are forgotten is none.
+// Changes to the vertiports of a network and to everything that refers to them. A vertiport has
+// rows in demand tables, a weight, delays, corridors and closures. A network that omits some of
+// them is invalid.
 
 import { draftOf, member, type Draft } from './draft'
 import { append, remove, set, type Splice } from './edits'
@@ -13,13 +14,13 @@ export interface Place {
   north: number
 }
 
-/** About a metre, and about ten. */
+/** Five digits are about a metre; two digits of a mile are about 16 metres. */
 const DEGREE_DIGITS = 5
 const MILE_DIGITS = 2
 
 const NEW_STANDS = 4
 
-/** The members in which a vertiport's place stands. */
+/** The members that contain a vertiport's position. */
 export function placeMembers(isGlobe: boolean): { east: string; north: string } {
   return isGlobe ? { east: 'longitude', north: 'latitude' } : { east: 'x_mi', north: 'y_mi' }
 }
@@ -90,7 +91,7 @@ function withoutDemand(file: TomlFile, { demand }: Draft, vertiport: number): Sp
   return set(file, [...DAILY, 'passengers'], rest)
 }
 
-/** Gives a vertiport another id, everywhere. */
+/** Changes the id of a vertiport everywhere. */
 export function renameVertiport(file: TomlFile, vertiport: number, id: string): Splice[] {
   const former = draftOf(file.value).vertiports[vertiport]?.id
   const own = set(file, ['vertiports', vertiport, 'id'], id)
@@ -98,7 +99,7 @@ export function renameVertiport(file: TomlFile, vertiport: number, id: string): 
   return [...own, ...references(file).flatMap((list) => renamed(file, list, former, id))]
 }
 
-/** Gives an aircraft type another id, in the fleet too. */
+/** Changes the id of an aircraft type, in the fleet too. */
 export function renameType(file: TomlFile, type: number, id: string): Splice[] {
   const draft = draftOf(file.value)
   const former = draft.types[type]?.id
@@ -110,7 +111,7 @@ export function renameType(file: TomlFile, type: number, id: string): Splice[] {
   return [...own, ...uses]
 }
 
-/** An id that none of these is: the word of the last one with the next number. */
+/** An unused id: the word of the last one with the next number. */
 export function freeId(ids: readonly string[]): string {
   const [, word = 'V', number = '0'] = /^(.*?)(\d+)$/.exec(ids.at(-1) ?? '') ?? []
   let next = Number(number) + 1
@@ -118,7 +119,7 @@ export function freeId(ids: readonly string[]): string {
   return `${word}${next}`
 }
 
-/** A list whose entries name vertiports: themselves, or in some of their members. */
+/** A list whose entries are names of vertiports, or contain them in some members. */
 interface ReferenceList {
   path: Path
   entries: readonly unknown[]
@@ -154,7 +155,7 @@ function isAbout(entry: unknown, names: readonly string[], id: string): boolean 
 function withoutReferences(file: TomlFile, { path, entries, names }: ReferenceList, id: string): Splice[] {
   const gone = entries.flatMap((entry, at) => (isAbout(entry, names, id) ? [at] : []))
   if (gone.length === 0) return []
-  // Entries with headings of their own are removed one by one; of a list in brackets the rest is written anew.
+  // Entries with headings are removed one by one; a list in brackets is rewritten without them.
   const isInBrackets = file.find(path) !== undefined
   if (gone.length === 1 || !isInBrackets) return gone.flatMap((at) => remove(file, [...path, at]))
   return set(file, path, entries.filter((_, at) => !gone.includes(at)) as Literal[])

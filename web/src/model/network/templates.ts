@@ -1,5 +1,5 @@
-// What a network can begin from when none that is there comes near. Each is small, complete, and says what is assumed, as a network
-// file should.
+// Starting points for a network that resembles no existing one. Each is small and complete, and
+// states its assumptions.
 
 const OPERATIONS = `[operations]
 start = "06:00:00"

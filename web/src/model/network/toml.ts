@@ -1,20 +1,21 @@
-// A network file as text that knows where everything in it stands, so that a form can change one number and leave all else as its
-// author wrote it: comments, order, spaces. toml-eslint-parser reads it, because it keeps the place of every node; libraries that
-// write a file anew, or patch it from an object, lose comments that stand between two tables.
+// A network file as text with the position of every member, so that a form can change one number
+// and keep everything else as written: comments, order, spaces. The parser is toml-eslint-parser,
+// because it keeps the position of every node. Libraries that rewrite a file, or patch it from an
+// object, lose comments between two tables.
 
 import { getStaticTOMLValue, ParseError, parseTOML, type AST } from 'toml-eslint-parser'
 
 export type Step = string | number
-/** The way to a member: `['vertiports', 2, 'stands']`. */
+/** The path to a member: `['vertiports', 2, 'stands']`. */
 export type Path = readonly Step[]
 
-/** A part of the text, from its first character to the one behind its last. */
+/** A part of the text, from its first character to the one after its last. */
 export interface Span {
   from: number
   to: number
 }
 
-/** Why a text is no TOML. Lines count from 1, columns from 0. */
+/** Why a text is not valid TOML. Lines count from 1, columns from 0. */
 export class TomlError extends Error {
   override readonly name = 'TomlError'
   constructor(
@@ -31,14 +32,14 @@ export type Content = AST.TOMLContentNode
 export type Pair = AST.TOMLKeyValue
 export type Table = AST.TOMLTable
 
-/** What a path leads to: a table with a heading, or a value, which may have a key of its own. */
+/** The target of a path: a table with a heading, or a value, which may have its own key. */
 export type Found = { table: Table } | { value: Content; pair: Pair | undefined }
 
 export class TomlFile {
   readonly #top: AST.TOMLTopLevelTable
   #value: unknown
 
-  /** Throws a `TomlError` if the text is no TOML. */
+  /** Throws a `TomlError` if the text is not valid TOML. */
   constructor(readonly text: string) {
     this.#top = parsed(text)
   }
@@ -48,7 +49,7 @@ export class TomlFile {
     return (this.#value ??= getStaticTOMLValue(this.#top))
   }
 
-  /** Members that stand before the first heading. */
+  /** Members before the first heading. */
   get rootPairs(): Pair[] {
     return this.#top.body.filter((one): one is Pair => one.type === 'TOMLKeyValue')
   }
@@ -57,7 +58,7 @@ export class TomlFile {
     return this.#top.body.filter((one): one is Table => one.type === 'TOMLTable')
   }
 
-  /** What a path leads to; undefined if it leads nowhere. */
+  /** The target of a path; undefined if it does not exist. */
   find(path: Path): Found | undefined {
     for (const pair of this.rootPairs) {
       const found = withinPair(pair, path)
@@ -75,7 +76,9 @@ export class TomlFile {
     return undefined
   }
 
-  /** Where a member stands, or the nearest one around it that is there; undefined if there is none. */
+  /**
+   * The position of a member, or of the nearest existing one around it; undefined if there is none.
+   */
   span(path: Path): Span | undefined {
     for (let length = path.length; length > 0; length--) {
       const begin = path.slice(0, length)
@@ -87,17 +90,17 @@ export class TomlFile {
     return undefined
   }
 
-  /** The member that a place in the text belongs to; empty if it belongs to none. */
+  /** The member that contains an offset in the text; empty if there is none. */
   pathAt(offset: number): Path {
     for (const pair of this.rootPairs) if (isWithin(pair, offset)) return pathWithin(pair, offset)
-    // A table ends where the next begins, so that the lines behind its last member are its own.
+    // A table ends where the next begins, so the lines after its last member belong to it.
     const table = this.tables.findLast(({ range }) => range[0] <= offset)
     if (table === undefined) return []
     const pair = table.body.find((one) => isWithin(one, offset))
     return [...table.resolvedKey, ...(pair === undefined ? [] : pathWithin(pair, offset))]
   }
 
-  /** The line of a place, from 1. */
+  /** The line of an offset, from 1. */
   line(offset: number): number {
     return this.text.slice(0, offset).split('\n').length
   }
