@@ -1,5 +1,5 @@
-// What part of the plane a picture shows. Cameras are values: moving one makes another, so that a picture knows by comparison
-// whether it must be drawn again.
+// The part of the plane that a picture shows. Cameras are values: moving one returns another, so a
+// picture can compare cameras to decide whether to redraw.
 
 import type { ColourName, Rgb } from '../parts/colours'
 import type { Size } from '../parts/sheet'
@@ -11,7 +11,7 @@ export interface Camera {
   /** The middle of the picture in the plane, miles. */
   readonly x: number
   readonly y: number
-  /** Pixels for a mile. */
+  /** Pixels per mile. */
   readonly scale: number
 }
 
@@ -22,13 +22,16 @@ export interface MapView {
   colours: Record<ColourName, Rgb>
 }
 
-/** A few stands fill the picture. */
+/** At this scale a few stands fill the picture. */
 const MOST_SCALE = 3000
-/** How much smaller than the whole network fits the picture it may become: what is far away is of no use, and takes long to draw. */
+/**
+ * The minimum scale, as a share of the scale that fits the whole network. Distant areas are of no
+ * use and slow to draw.
+ */
 const LEAST_SHARE = 1 / 10
-/** Pixels that stay free around everything, so that rings and names fit. */
+/** The free margin around the content in pixels, for rings and names. */
 const MARGIN = { x: 70, y: 56 }
-/** A network of one vertiport is shown with this much around it. */
+/** A network of one vertiport is shown with this span around it. */
 const LEAST_SPAN_MI = 1
 
 /** The camera that shows all of a box. */
@@ -42,12 +45,15 @@ export function fit(box: Box, size: Size): Camera {
   return { x: (box.west + box.east) / 2, y: (box.south + box.north) / 2, scale: Math.min(MOST_SCALE, scale) }
 }
 
-/** Moves the picture by pixels: what was under the pointer stays under it. */
+/** Moves the picture by pixels, so that the point under the pointer stays under it. */
 export function pan(camera: Camera, dx: number, dy: number): Camera {
   return { ...camera, x: camera.x - dx / camera.scale, y: camera.y + dy / camera.scale }
 }
 
-/** Zooms by a factor around a pixel; out from the camera that shows everything only so far. */
+/**
+ * Zooms by a factor around a pixel. Zooming out is limited relative to the camera that shows
+ * everything.
+ */
 export function zoom(
   camera: Camera,
   factor: number,
@@ -79,7 +85,7 @@ export function view(camera: Camera, size: Size): Box {
   return { west: camera.x - x, south: camera.y - y, east: camera.x + x, north: camera.y + y }
 }
 
-/** Whether everything of a box is in the picture. */
+/** Whether a point is in the picture. */
 export function shows(camera: Camera, size: Size, x: number, y: number, margin = 0): boolean {
   const [px, py] = [pixelX(camera, size, x), pixelY(camera, size, y)]
   return px >= margin && py >= margin && px <= size.width - margin && py <= size.height - margin

@@ -1,4 +1,4 @@
-// What is said about what a person points at on the map, line by line, the name first.
+// Describes the object under the pointer on the map, line by line, the name first.
 
 import { at } from '../model/arrays'
 import { latenessOf, minutesOverdue } from '../model/awaited'
@@ -83,7 +83,7 @@ function describeVertiport(scene: Scene, vertiport: number): string[] {
   return lines
 }
 
-/** What the map shows in a sentence, for people who do not see it. */
+/** Describes the map in one sentence for users who cannot see it. */
 export function summarise(scene: Scene, time: number): string {
   const { record, frame, counts, closures } = scene
   const overdue = record.aircraft.flatMap(({ id }, one) => {

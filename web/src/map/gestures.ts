@@ -1,4 +1,5 @@
-// How a user moves the map: drag, wheel, two fingers, double click. The map is told what to do and decides what it means.
+// How a user moves the map: drag, wheel, two fingers, double click. This module reports gestures;
+// the map decides what they mean.
 
 import { listen as listenToPointers, type Pixel, type PointerActions } from '../parts/pointers'
 
@@ -8,7 +9,7 @@ export interface Moves extends Pick<PointerActions, 'point' | 'press'> {
   zoom: (factor: number, at: Pixel) => void
 }
 
-/** How much one notch of a wheel zooms; trackpads send many small ones. */
+/** How much one notch of a wheel zooms; trackpads send many small steps. */
 const WHEEL_RATE = 0.0016
 const PINCH_WHEEL_RATE = 0.01
 
@@ -18,7 +19,7 @@ export function listen(element: HTMLElement, { pan, zoom, point, press }: Moves)
     point,
     press,
     drag: (from, to) => pan(to.x - from.x, to.y - from.y),
-    // The picture follows the middle and the distance of both fingers.
+    // The picture follows the midpoint and the distance of both fingers.
     pinch: (other, from, to) => {
       const before = Math.hypot(from.x - other.x, from.y - other.y)
       pan((to.x - from.x) / 2, (to.y - from.y) / 2)

@@ -1,21 +1,22 @@
-// Names of vertiports on the map: each stands beside its ring where it covers neither another ring nor another name. A name for
-// which there is no room is left out; a user who points at the ring reads it there.
+// Places the names of vertiports on the map. Each is next to its ring, where it covers neither
+// another ring nor another name. A name without room is left out; the tooltip of the ring still
+// shows it.
 
 import type { Size } from '../parts/sheet'
 
 export interface LabelWish {
-  /** The ring that is named, pixels. */
+  /** The centre of the labelled ring, pixels. */
   x: number
   y: number
   radius: number
   width: number
   height: number
-  /** Greater comes first. */
+  /** Higher weights are placed first. */
   weight: number
 }
 
 export interface LabelPlace {
-  /** The left upper corner of the text. */
+  /** The top left corner of the text. */
   left: number
   top: number
 }
@@ -29,7 +30,10 @@ export interface Rectangle {
   bottom: number
 }
 
-/** Where each name goes within a picture, of which some parts are covered; undefined where it finds no room. */
+/**
+ * The position of each name within a picture, of which some parts are covered; undefined if there
+ * is no room.
+ */
 export function placeLabels(
   wishes: readonly LabelWish[],
   size: Size,

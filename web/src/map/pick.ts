@@ -1,4 +1,5 @@
-// What is under the pointer: an aircraft in the air before a vertiport, the nearest first.
+// Finds the object under the pointer: an aircraft in the air takes precedence over a vertiport, and
+// nearer ones come first.
 
 import { NONE } from '../model/motion'
 import type { Target } from '../model/target'
@@ -6,7 +7,7 @@ import type { Pixel } from '../parts/pointers'
 import { radiusOf } from './rings'
 import { aircraftPixel, vertiportPixel, visibility, type Viewpoint } from './where'
 
-/** How far from the middle of an aircraft the pointer may be, pixels; fingers are less exact. */
+/** Maximum distance of the pointer from the middle of an aircraft, pixels; touch is less exact. */
 const REACH = { mouse: 12, touch: 22 }
 
 export function pick(viewpoint: Viewpoint, pointer: Pixel, isTouch = false): Target | undefined {

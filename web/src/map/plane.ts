@@ -1,13 +1,14 @@
-// The plane that maps are drawn in: miles east and north of the middle of the network. Where vertiports have coordinates it is
-// Mercator's, at the scale of the middle's latitude, so that directions on the map are those of flight.
+// The plane of the maps: miles east and north of the middle of the network. With coordinates it is
+// the Mercator projection, scaled for the middle's latitude, so directions on the map are those of
+// flight.
 
 import { at } from '../model/arrays'
 import type { Geography } from '../model/geography'
 
 const RADIANS = Math.PI / 180
-/** Miles around the equator of Mercator's world, before the scale of a latitude. */
+/** Miles around the equator of the Mercator world, before the scale of a latitude. */
 const AROUND_MI = 2 * Math.PI * 3958.7613
-/** Mercator's map ends here; the poles are infinitely far away. */
+/** The Mercator map ends here; the poles are infinitely far away. */
 const NORTHERNMOST = 85
 
 export interface Box {
@@ -21,9 +22,9 @@ export class Plane {
   readonly isGlobe: boolean
   /** The vertiports, two numbers each. */
   readonly vertiports: Float64Array
-  /** The middle of the network, degrees or miles of the network's own. */
+  /** The middle of the network: degrees, or miles in the network's coordinates. */
   readonly #middle: [number, number]
-  /** Miles of the plane for the whole width of the world. */
+  /** The width of the world in miles of the plane. */
   readonly #world_mi: number
   readonly #north: number
 
@@ -37,7 +38,7 @@ export class Plane {
     this.write(geography.places, this.vertiports)
   }
 
-  /** Writes positions of a geography as positions in the plane. */
+  /** Converts positions of a geography to positions in the plane. */
   write(places: ArrayLike<number>, to: Float64Array): void {
     for (let one = 0; one < places.length; one += 2) {
       const [east, north] = [at(places, one), at(places, one + 1)]
@@ -66,7 +67,7 @@ export class Plane {
     return (2 * Math.atan(Math.exp(exponent)) - Math.PI / 2) / RADIANS
   }
 
-  /** Miles on the ground for a mile of the plane, at a height of it. */
+  /** Miles on the ground per mile of the plane, at a given y. */
   milesAt(y: number): number {
     return this.isGlobe ? Math.cos(this.latitude(y) * RADIANS) / Math.cos(this.#middle[1] * RADIANS) : 1
   }
@@ -77,7 +78,7 @@ export class Plane {
   }
 }
 
-/** The least rectangle around positions; one around the origin if there are none. */
+/** The smallest rectangle around positions; one around the origin if there are none. */
 export function boxOf(places: ArrayLike<number>): Box {
   const box: Box = { west: Infinity, south: Infinity, east: -Infinity, north: -Infinity }
   for (let one = 0; one + 1 < places.length; one += 2) {
@@ -90,7 +91,7 @@ export function boxOf(places: ArrayLike<number>): Box {
   return places.length === 0 ? { west: 0, south: 0, east: 0, north: 0 } : box
 }
 
-/** How far north a latitude is on Mercator's map, in widths of the world. */
+/** The Mercator y of a latitude, in widths of the world. */
 function mercator(latitude: number): number {
   const bounded = Math.max(-NORTHERNMOST, Math.min(NORTHERNMOST, latitude))
   return Math.log(Math.tan(Math.PI / 4 + (bounded * RADIANS) / 2)) / (2 * Math.PI)

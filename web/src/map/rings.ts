@@ -1,10 +1,13 @@
-// The ring of a vertiport: a piece for each stand, coloured by who holds it. It is read like a gauge, clockwise from the top: who
-// stands there, for whom a stand is kept, and what is free.
+// The ring of a vertiport: one piece per stand, coloured by its state. It reads like a gauge,
+// clockwise from the top: taken, promised, free.
 
 import { at } from '../model/arrays'
 import { COUNTED, StandState } from '../model/counts'
 
-/** More stands than this are shown as one arc for each state: pieces would be too small to count. */
+/**
+ * With more stands than this, each state is one arc, because separate pieces would be too small to
+ * count.
+ */
 const MOST_PIECES = 24
 const TURN = 2 * Math.PI
 /** Pixels between two pieces. */
@@ -16,7 +19,10 @@ export interface Piece {
   state: StandState
 }
 
-/** The radius of a ring in pixels: it grows with the number of stands, and shrinks where vertiports stand close together. */
+/**
+ * The radius of a ring in pixels: larger with more stands, smaller where vertiports are close
+ * together.
+ */
 function ringRadius(room: number, nearest_px: number): number {
   const wanted = Math.min(28, 11 + 2.4 * Math.sqrt(room))
   return Math.max(4, Math.min(wanted, 0.42 * nearest_px))
@@ -35,7 +41,10 @@ export function ringWidth(radius: number): number {
   return Math.max(2.5, Math.min(5, radius * 0.3))
 }
 
-/** The pieces of a ring; `counts` has the aircraft in each counted state from `offset` on. */
+/**
+ * The pieces of a ring; `counts` holds the number of aircraft in each counted state from `offset`
+ * on.
+ */
 export function piecesOf(counts: ArrayLike<number>, offset: number, room: number, radius: number): Piece[] {
   const states = inOrder(counts, offset, room)
   const all = states.reduce((sum, { number }) => sum + number, 0)
@@ -49,7 +58,7 @@ interface Counted {
   number: number
 }
 
-/** How many stands are in each state. Aircraft for which there is no stand come last. */
+/** The number of stands in each state, in order. Aircraft without a stand come last. */
 function inOrder(counts: ArrayLike<number>, offset: number, room: number): Counted[] {
   const order: Counted[] = []
   let left = room

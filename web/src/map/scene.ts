@@ -1,5 +1,6 @@
-// What is on the map at a moment, in the plane and without pixels or colours. Painters draw it; what moves is written anew at
-// every moment, and what changes only with decisions carries a revision, so that it is drawn anew only then.
+// The content of the map at one time, in the plane and without pixels or colours, for painters to
+// draw. Moving parts are updated every time. Parts that change only with decisions have a revision,
+// so painters redraw them only then.
 
 import { at } from '../model/arrays'
 import { Counts, destinationOf, holdingOf, type StandState } from '../model/counts'
@@ -9,7 +10,7 @@ import type { ClosureRecord, DayRecord, Seconds } from '../model/record'
 import { Waiting, type WaitingPair } from '../model/waiting'
 import { Plane } from './plane'
 
-/** More arcs would hide each other; those of the fewest passengers are left out. */
+/** More arcs would hide each other, so the arcs with the fewest passengers are left out. */
 const MOST_ARCS = 24
 
 export class Scene {
@@ -23,11 +24,11 @@ export class Scene {
   readonly room: number[]
   /** Miles to the nearest other vertiport. */
   readonly nearest_mi: number[]
-  /** Everyone who waits, and the pairs with most of them, which are drawn. */
+  /** All waiting passengers, and the pairs with most of them, which are drawn. */
   allPairs: readonly WaitingPair[] = []
   pairs: readonly WaitingPair[] = []
   closures: readonly ClosureRecord[] = []
-  /** Rises when rings, arcs or closures have changed. */
+  /** Increases when rings, arcs or closures have changed. */
   revision = 0
   readonly #waiting: Waiting
 
@@ -42,7 +43,7 @@ export class Scene {
     this.#waiting = new Waiting(record)
   }
 
-  /** Brings everything to a moment. `demand` stands in for what the record says about who waits. */
+  /** Updates everything to a time. `demand` replaces the record's waiting passengers. */
   show(time: Seconds, demand?: readonly WaitingPair[]): void {
     this.fleet.show(time, this.frame)
     this.plane.write(this.frame.places, this.aircraft)
@@ -51,18 +52,18 @@ export class Scene {
     this.#showWaiting(demand ?? this.#waiting.pairs(time))
   }
 
-  /** Where an aircraft flies to, or would if it were not delayed; NONE for one that stands. */
+  /** The destination of an aircraft, also if its flight is delayed; NONE if it stands. */
   destination(aircraft: number): number {
     return destinationOf(this.record, this.frame, aircraft)
   }
 
-  /** Where it comes from; NONE for one that stands. */
+  /** The origin of the flight; NONE if the aircraft stands. */
   origin(aircraft: number): number {
     if (at(this.frame.phases, aircraft) !== Phase.flying) return NONE
     return at(this.record.legs, at(this.frame.legs, aircraft)).from
   }
 
-  /** The share of the seats that is taken on the flight; 0 for one that stands. */
+  /** The load factor of the flight; 0 if the aircraft stands. */
   load(aircraft: number): number {
     if (this.destination(aircraft) === NONE) return 0
     const { passengers } = at(this.record.legs, at(this.frame.legs, aircraft))
@@ -74,7 +75,7 @@ export class Scene {
     return at(this.frame.overdue_min, aircraft) > 0
   }
 
-  /** The aircraft that hold stands of a vertiport, with those that are on their way to it. */
+  /** The aircraft that hold stands of a vertiport, including those on their way to it. */
   aircraftAt(vertiport: number): { aircraft: number; state: StandState }[] {
     return this.record.aircraft.flatMap((_, aircraft) => {
       const holding = holdingOf(this.record, this.frame, aircraft)

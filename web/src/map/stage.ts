@@ -1,5 +1,5 @@
-// The layers of the map over its ground: what is on the map, names, and what is overdue. They are painted together, so that they
-// always show the same moment from the same camera.
+// The map's layers over the ground: objects, names, and marks for overdue aircraft. They are
+// painted together, so they always show the same time from the same camera.
 
 import { CanvasPainter } from './painters/canvas'
 import { NamesPainter } from './painters/names'

@@ -1,4 +1,4 @@
-// Where things of a scene are in a picture, in pixels.
+// The positions of a scene's objects in a picture, in pixels.
 
 import { at } from '../model/arrays'
 import { NONE, Phase } from '../model/motion'
@@ -15,9 +15,9 @@ export interface Viewpoint {
   size: Size
 }
 
-/** How far outside of the ring an aircraft is that may not take off yet, or is overdue, pixels. */
+/** The distance from the ring of an aircraft that may not take off yet, or is overdue, pixels. */
 const APRON_PX = 9
-/** How far apart aircraft are that are overdue on the same way. */
+/** The distance between aircraft that are overdue on the same route. */
 const LINE_PX = 26
 
 export function vertiportPixel({ scene, camera, size }: Viewpoint, vertiport: number): Pixel {
@@ -34,8 +34,10 @@ export function targetPixel(viewpoint: Viewpoint, target: Target): Pixel {
     : aircraftPixel(viewpoint, target.aircraft)
 }
 
-/** Where an aircraft is drawn. One that is delayed stands beside its vertiport, on the side of its destination; one that should have
- *  landed is on the other side of its way, outside of the ring of its destination. */
+/**
+ * The position at which an aircraft is drawn. A delayed one is next to its vertiport, on the side
+ * of its destination. One that should have landed is outside the ring of its destination.
+ */
 export function aircraftPixel(viewpoint: Viewpoint, aircraft: number): Pixel {
   const { scene, camera, size } = viewpoint
   const x = pixelX(camera, size, at(scene.aircraft, 2 * aircraft))
@@ -60,7 +62,7 @@ function towards(from: Pixel, to: Pixel, distance_px: number): Pixel {
   return { x: from.x + (to.x - from.x) * share, y: from.y + (to.y - from.y) * share }
 }
 
-/** How many others are overdue on the same way and come before an aircraft in the line there. */
+/** How many other aircraft are overdue on the same route and come first in the queue there. */
 function beforeInLine(scene: Scene, aircraft: number): number {
   const isSame = (other: number) =>
     scene.isOverdue(other) &&
@@ -69,7 +71,7 @@ function beforeInLine(scene: Scene, aircraft: number): number {
   return scene.record.aircraft.reduce((sum, _, other) => sum + Number(other < aircraft && isSame(other)), 0)
 }
 
-/** How visible an aircraft is at a pixel, 0 to 1. */
+/** The opacity of an aircraft at a pixel, 0 to 1. */
 export function visibility(viewpoint: Viewpoint, aircraft: number, { x, y }: Pixel): number {
   const { scene, camera } = viewpoint
   if (scene.isOverdue(aircraft)) return 1
@@ -90,7 +92,10 @@ export function direction(viewpoint: Viewpoint, aircraft: number, { x, y }: Pixe
   return Math.atan2(to.x - x, y - to.y)
 }
 
-/** Where the way begins that an aircraft has flown: at the ring of its origin. Undefined for one that has not left it. */
+/**
+ * The start of the part that an aircraft has flown: at the ring of its origin. Undefined if it has
+ * not left the ring.
+ */
 export function wayBegin(viewpoint: Viewpoint, aircraft: number, { x, y }: Pixel): Pixel | undefined {
   const origin = viewpoint.scene.origin(aircraft)
   if (origin === NONE) return undefined

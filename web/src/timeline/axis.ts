@@ -1,4 +1,4 @@
-// The axis of a timeline, the names of its rows, and the line of now with a veil over what is yet to come.
+// The axis of a timeline, the names of its rows, and the now line with a veil over the future.
 
 import { at } from '../model/arrays'
 import type { Seconds } from '../model/record'
@@ -9,26 +9,26 @@ import { TICK_PX } from './paint'
 import type { GanttRow } from './rows'
 import { pixelOf, ticks, type Span } from './span'
 
-/** The place of the names of rows, which is as wide as the four buttons above it. */
+/** The width of the column of row names, which equals that of the four buttons above it. */
 export const GUTTER_PX = 97
 
 export interface AxisPicture {
   span: Span
   time: Seconds
-  /** Of the plot; the names of rows are to its left. */
+  /** The size of the plot; the names of rows are to its left. */
   size: Size
   colours: Record<ColourName, Rgb>
-  /** Whether the time is now, so that what is yet to come is only expected, and drawn like that. */
+  /** Whether the time is now, so that the future is only expected, and drawn accordingly. */
   isLive: boolean
 }
 
-/** How strong the veil over what is yet to come is. */
+/** The opacity of the veil over the future. */
 const VEIL = { overKnown: 0.5, overExpected: 0.15 }
 
 /** Half the width of the flag with the time. */
 const FLAG_PX = 28
 
-/** The times above the rows, and the time that is shown in a flag of its own. */
+/** The times above the rows, and the current time in a flag. */
 export function paintAxis(
   context: CanvasRenderingContext2D,
   { span, time, size, colours }: AxisPicture,
@@ -57,7 +57,7 @@ export function paintAxis(
   context.fillText(clock(time), x, middle + 0.5)
 }
 
-/** What is yet to come is paler, and now is a line. */
+/** Draws the future paler, and now as a line. */
 export function paintNow(
   context: CanvasRenderingContext2D,
   { span, time, size, colours, isLive }: AxisPicture,
@@ -78,7 +78,7 @@ export interface NamesPicture {
   colours: Record<ColourName, Rgb>
 }
 
-/** Names of rows; of a group, the name stands at its first row or where its rows come into view. */
+/** The names of rows. The name of a group is at its first visible row. */
 export function paintNames(context: CanvasRenderingContext2D, picture: NamesPicture): void {
   const { rows, rowHeight, scrollTop, size, colours } = picture
   const family = getComputedStyle(context.canvas).fontFamily

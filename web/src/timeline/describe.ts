@@ -1,4 +1,4 @@
-// What is said about a bar of a timeline, line by line, the name first.
+// Describes a bar of a timeline, line by line, the name first.
 
 import { at } from '../model/arrays'
 import { minutesOverdue } from '../model/awaited'
@@ -9,10 +9,10 @@ import { isHold, type DayRecord, type LegRecord } from '../model/record'
 import { clock } from '../model/time'
 import { text } from '../text/text'
 
-/** Another play of the same day, which a timeline is compared with. */
+/** Another play of the same day, for comparison with a timeline. */
 export interface Beside {
   title: string
-  /** The legs of this play that the other does not have. */
+  /** The legs of this play that the other one lacks. */
   otherwise: Otherwise
 }
 
@@ -28,7 +28,7 @@ export function describeBar(record: DayRecord, bar: Bar, beside?: Beside): strin
     : [`${id} · ${nameOf(record, leg)}`, own, ...details(record, leg, beside)]
 }
 
-/** The whole of a leg in one sentence, for people who hear it. */
+/** A leg in one sentence, for screen readers. */
 export function describeLeg(record: DayRecord, leg: LegRecord, beside?: Beside): string {
   const { id } = at(record.aircraft, leg.aircraft)
   const times = text.timeline.times(
@@ -43,7 +43,7 @@ export function nameOf({ vertiports }: DayRecord, leg: LegRecord): string {
   return isHold(leg) ? text.timeline.hold(from) : text.timeline.flight(from, to)
 }
 
-/** Whether a leg is overdue, whether it is only expected, and what another play has in its place. */
+/** Whether a leg is overdue or expected, and its counterpart in another play. */
 export function notesOf(record: DayRecord, leg: LegRecord, beside?: Beside): string[] {
   const position = beside === undefined ? -1 : record.legs.indexOf(leg)
   const isOtherwise = beside?.otherwise.has(position) ?? false

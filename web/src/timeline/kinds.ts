@@ -1,5 +1,5 @@
-// The two timelines of a day, which one Gantt draws: what the fleet does, with a row for each aircraft, and who holds the stands,
-// with a row for each of every vertiport.
+// The two timelines of a day, which one Gantt draws: the fleet, with a row for each aircraft, and
+// the stands, with a row for each stand of every vertiport.
 
 import type { DayRecord, Seconds } from '../model/record'
 import type { Target } from '../model/target'
@@ -9,17 +9,20 @@ export type TimelineKind = 'fleet' | 'stands'
 
 export interface TimelineShape {
   rowsOf: (record: DayRecord) => GanttRow[]
-  /** The least and greatest height of a row, pixels. */
+  /** The minimum and maximum height of a row, pixels. */
   heights: readonly [number, number]
 }
 
-/** A timeline that is in the page. */
+/** A timeline in the page. */
 export interface ShownTimeline {
-  /** Brings a row into the middle, and a time into view if one is given. */
+  /** Scrolls a row to the middle, and optionally a time into view. */
   show: (target: Target, at?: Seconds) => void
 }
 
-/** Where two timelines are side by side, each has half of the room and lower rows, so that more of the fleet is in view. */
+/**
+ * If two timelines are side by side, each has half the space and lower rows, so that more of the
+ * fleet is visible.
+ */
 export const DENSE_PX = 14
 
 export const shapes: Readonly<Record<TimelineKind, TimelineShape>> = {

@@ -6,10 +6,10 @@ import { Labels, runsOf, type Label } from './labels'
 import { rowsOfFleet, rowsOfStands, type GanttRow } from './rows'
 
 const record = prices()
-/** Letters are as wide as this, pixels. */
+/** The width of every letter, pixels. */
 const LETTER_PX = 6
 
-/** The labels of a row in which a second is so many pixels wide. */
+/** The labels of a row at a scale in pixels per second. */
 function labelsOf(row: GanttRow, pixelsPerSecond: number): (Label | undefined)[] {
   const place = (bar: Bar): [number, number] => [
     Math.max(0, (bar.begins - record.start) * pixelsPerSecond),
@@ -45,7 +45,8 @@ describe('labels of the fleet', () => {
   })
 
   it('run on over the charging after a short flight, and no further', () => {
-    // The first flight takes 661 s and its charging 509 s: 16 and 12 pixels for four letters, which take 24.
+    // The first flight takes 661 s and its charging 509 s: 16 and 12 pixels for four letters, which
+    // take 24.
     const [first] = labelsOf(fleetRow(0), 0.0245)
     expect(first).toMatchObject({ text: 'East', isLonger: true })
     expect((first?.right ?? 0) - (first?.left ?? 0)).toBeGreaterThanOrEqual(4 * LETTER_PX)
@@ -55,7 +56,7 @@ describe('labels of the fleet', () => {
   })
 
   it('are cut off where even that is too little, and absent where letters would say nothing', () => {
-    // No name of this day is long enough to leave three letters and take two away.
+    // No name of this day is long enough to be cut to three letters.
     expect(labelsOf(fleetRow(0), 0.017)[0]).toBeUndefined()
     expect(labelsOf(fleetRow(0), 0.005)[0]).toBeUndefined()
   })

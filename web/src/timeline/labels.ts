@@ -1,34 +1,36 @@
-// The text on the bars of a row: the origin and destination of a flight (the destination alone where there is less room), or the
-// aircraft that holds a stand. Bars of one leg follow each other, and a name
-// that its bar has no room for runs on over those that follow, which are the same aircraft's. A name that does not fit even there
-// is cut off, though never so short that it could be that of another; else the bar says who it is only when it is pointed at.
+// The labels of a row's bars: origin and destination of a flight (only the destination if there is
+// less room), or the aircraft that holds a stand.
+//
+// The bars of one leg are consecutive and belong to the same aircraft, so a name without room on
+// its bar continues over them. A name that still does not fit is cut off, but never so short that
+// it could be mistaken for another. Otherwise only the bar's tooltip shows the name.
 
 import { at } from '../model/arrays'
 import type { Bar } from '../model/bars'
 import type { DayRecord } from '../model/record'
 import type { GanttRow } from './rows'
 
-/** Bars that are one leg of an aircraft, or its standing at the start of the day, one after the other. */
+/** Consecutive bars of one leg of an aircraft, or of its stay at the start of the day. */
 export type Run = readonly [Bar, ...Bar[]]
 
-/** A name and the pixels that it may take. */
+/** A name and its available pixels. */
 export interface Label {
   text: string
   left: number
   right: number
-  /** The bar that is named. */
+  /** The labelled bar. */
   bar: Bar
-  /** Whether the name is longer than its bar and runs on over the next ones. */
+  /** Whether the name is longer than its bar and continues over the next ones. */
   isLonger: boolean
 }
 
-/** Letters of a name that are shown at least where it is cut off; fewer are no name. */
+/** A name that is cut off keeps at least this number of letters. */
 const LEAST_LETTERS = 3
 
-/** Pixels between a name and either end of its bar, at least. */
+/** Minimum distance between a name and either end of its bar, pixels. */
 const MARGIN_PX = 1
 
-/** The runs of a row's bars from one position to before another. */
+/** The runs of a row's bars between two positions, the second excluded. */
 export function runsOf(bars: readonly Bar[], first: number, end: number): Run[] {
   const runs: [Bar, ...Bar[]][] = []
   for (const bar of bars.slice(first, end)) {
@@ -39,7 +41,7 @@ export function runsOf(bars: readonly Bar[], first: number, end: number): Run[] 
   return runs
 }
 
-/** Writes names as far as there is room for them, which depends on the letters and on where bars are. */
+/** Fits names into bars, depending on the width of the letters and the positions of the bars. */
 export class Labels {
   readonly #widths = new Map<string, number>()
   readonly #shortest = new Map<string, number>()
@@ -47,7 +49,7 @@ export class Labels {
   constructor(
     private readonly record: DayRecord,
     private readonly width: (text: string) => number,
-    /** Where a bar is, as far as it is in view. */
+    /** The visible part of a bar. */
     private readonly place: (bar: Bar) => readonly [left: number, right: number],
   ) {}
 
@@ -104,7 +106,7 @@ export class Labels {
     return undefined
   }
 
-  /** How many letters tell a name from all others. */
+  /** The number of letters that distinguishes a name from all others. */
   #shortestOf(text: string, names: readonly { id: string }[]): number {
     const known = this.#shortest.get(text)
     if (known !== undefined) return known

@@ -1,5 +1,5 @@
-// Draws the rows of a timeline that are in view. What it draws changes with the record, the span and the selection, and not with
-// the time: what is yet to come is veiled by another layer.
+// Draws the visible rows of a timeline. The drawing depends on the record, the span and the
+// selection, but not on the time: another layer veils the future.
 
 import { at } from '../model/arrays'
 import { minutesOverdue } from '../model/awaited'
@@ -19,32 +19,35 @@ export interface GanttPicture {
   record: DayRecord
   rows: readonly GanttRow[]
   span: Span
-  /** Of the rows that are in view. */
+  /** The size of the visible rows. */
   size: Size
   rowHeight: number
   scrollTop: number
   colours: Record<ColourName, Rgb>
   hovered: Target | undefined
   selected: Target | undefined
-  /** Legs that another play does not have; they are marked. */
+  /** Legs that another play lacks; they are marked. */
   otherwise: Otherwise | undefined
 }
 
-/** Pixels between two names on the axis, at least. */
+/** Minimum distance between two labels on the axis, pixels. */
 export const TICK_PX = 64
-/** How strong what is only expected is drawn, but for its text. */
+/** The opacity of expected bars, except for their text. */
 const EXPECTED = 0.5
-/** Dashes around narrower bars would be noise. */
+/** Dashes around narrower bars would be visual noise. */
 const LEAST_DASHED_PX = 14
-/** How wide the ground behind letters is that run over several bars. */
+/** The width of the background behind letters that continue over several bars. */
 const HALO_PX = 3
-/** How thick the line is that marks what differs, and how strong where only the time or the passengers do. */
+/**
+ * The thickness of the line that marks differences, and its opacity if only the time or the
+ * passengers differ.
+ */
 const MARK_PX = 2
 const PALE_MARK = 0.35
 
 interface Look {
   colour: ColourName
-  /** Share of the row's height, and where in it: 0 at the top, 1 at the bottom. */
+  /** The share of the row's height, and the position in it: 0 at the top, 1 at the bottom. */
   height: number
   place: number
   fill: number
@@ -61,7 +64,7 @@ const looks: Record<BarKind, Look> = {
   standing: { colour: 'holding', height: 0.6, place: 0.5, fill: 0.32, hasLine: false },
 }
 
-/** On stands, charging is what a bar is about and not what is beneath it. */
+/** On stands, charging is the content of a bar and not a background. */
 const chargingOnStand: Look = { colour: 'charging', height: 0.6, place: 0.5, fill: 0.85, hasLine: false }
 
 export function paintRows(context: CanvasRenderingContext2D, picture: GanttPicture): void {
@@ -141,8 +144,11 @@ class RowPainter {
     this.#write(label, top + 1 + (place + height / 2 - place * height) * (rowHeight - 2))
   }
 
-  /** A line stands above each flight and hold that differs from another play, paler where the aircraft goes the same way at another
-   *  time or with other passengers. It goes down as a bracket where the ways of the aircraft part. */
+  /**
+   * Draws a line above each flight and hold that differs from another play. It is paler where the
+   * aircraft flies the same route at another time or with other passengers. It ends in a bracket
+   * where the routes diverge.
+   */
   #paintMarks(runs: readonly Run[], top: number): void {
     const { context, picture } = this
     let wasElsewhere = false
@@ -190,7 +196,9 @@ class RowPainter {
     if (bar.kind === 'outage') this.#hatch(left, y, width, height, css(colour, 0.5))
   }
 
-  /** What lies beyond the time at which an overdue aircraft should have departed or landed is hatched, with its minutes. */
+  /**
+   * Hatches the time after an overdue aircraft should have departed or landed, with its minutes.
+   */
   #paintOverdue(bar: Bar, row: GanttRow, top: number): void {
     const leg = this.picture.record.legs[bar.leg]
     if (bar.overdueSince === undefined || leg === undefined) return
@@ -221,7 +229,7 @@ class RowPainter {
     context.setLineDash([])
   }
 
-  /** What was planned stands as a thin line beneath what has come of it. */
+  /** Draws the plan as a thin line below the actual flight. */
   #paintPlan(departs: number, arrives: number, top: number): void {
     const { context, picture } = this
     const [left, right] = [this.#x(departs), this.#x(arrives)]
@@ -250,7 +258,10 @@ class RowPainter {
     context.restore()
   }
 
-  /** Writes in the middle of a bar, or from the left on over the next ones, where letters need a ground of their own. */
+  /**
+   * Writes in the middle of a bar, or from its left edge over the next ones, where letters need a
+   * background.
+   */
   #write({ text, left, right, bar, isLonger }: Label, y: number): void {
     const { context, picture } = this
     const { colours, size } = picture
@@ -269,7 +280,7 @@ class RowPainter {
     this.#within(end, size.width, () => this.#writeOver(text, left, y + 0.5, colours.ink))
   }
 
-  /** Writes on a ground of its own, over whatever lies there. */
+  /** Writes on a background, over any content. */
   #writeOver(words: string, left: number, y: number, colour: Rgb): void {
     const { context, picture } = this
     context.strokeStyle = css(picture.colours.surface, 0.85)
@@ -280,7 +291,7 @@ class RowPainter {
     context.fillText(words, left, y)
   }
 
-  /** Draws from one pixel along the day to another and nowhere else. */
+  /** Draws only between two pixels along the day. */
   #within(from: number, to: number, draw: () => void): void {
     const { context, picture } = this
     if (to <= from) return
@@ -298,7 +309,7 @@ class RowPainter {
   }
 }
 
-/** Flights are filled by their load, as aircraft on the map are. */
+/** Flights are filled by their load factor, like aircraft on the map. */
 function fillOfBar({ kind, load }: Bar): number {
   if (kind !== 'flight') return 1
   return load === 0 ? 0.06 : 0.35 + 0.65 * load

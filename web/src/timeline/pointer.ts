@@ -1,11 +1,12 @@
-// How a user moves a timeline with a pointer. Scrolling up and down is the browser's; along the day it is ours.
+// How a user moves a timeline with a pointer. The browser handles vertical scrolling; this module
+// handles movement along the day.
 
 import { listen as listenToPointers, type PointerActions } from '../parts/pointers'
 
 interface TimelineMoves extends Pick<PointerActions, 'point' | 'press'> {
   /** Moves the day by pixels. */
   pan: (dx: number) => void
-  /** Scrolls the rows by pixels, where the browser does not. */
+  /** Scrolls the rows by pixels, if the browser does not. */
   scroll: (dy: number) => void
   zoom: (factor: number, x: number) => void
 }
@@ -26,7 +27,8 @@ export function listen(element: HTMLElement, { point, press, pan, scroll, zoom }
       if (before > 4 && after > 4) zoom(after / before, (to.x + other.x) / 2)
       pan((to.x - from.x) / 2)
     },
-    // With Ctrl, and so by pinching a trackpad, a wheel zooms; sideways or with Shift it moves the day.
+    // With Ctrl, and thus when pinching on a trackpad, a wheel zooms. Sideways or with Shift it
+    // moves the day.
     wheel: (event, { x }, pixels) => {
       const sideways = event.shiftKey && event.deltaX === 0 ? event.deltaY : event.deltaX
       if (event.ctrlKey || event.metaKey) {

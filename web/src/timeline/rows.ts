@@ -1,4 +1,5 @@
-// The rows of a timeline: those of the fleet and those of stands have the same shape, so that one Gantt draws both.
+// The rows of a timeline. Rows of the fleet and rows of stands have the same shape, so that one
+// Gantt draws both.
 
 import { at, countUpTo } from '../model/arrays'
 import { fleetRows, standRows, type Bar, type Plan } from '../model/bars'
@@ -9,17 +10,17 @@ import type { Span } from './span'
 
 export interface GanttRow {
   label: string
-  /** The vertiport whose first stand this is. */
+  /** The vertiport, on the row of its first stand. */
   group?: string | undefined
-  /** What a click on the label selects. */
+  /** The target that a click on the label selects. */
   target: Target
-  /** By their beginnings, one after the other. */
+  /** Ordered by their beginnings, without overlap. */
   bars: Bar[]
   begins: Float64Array
   /** Drawn over the bars. */
   outages: Bar[]
   plans: Plan[]
-  /** A stand that there is not: more aircraft are here than there is room for. */
+  /** A row beyond the existing stands: more aircraft are here than there is room for. */
   isOver: boolean
 }
 
@@ -50,7 +51,7 @@ export function wholeDay(record: DayRecord): Span {
   return { from: record.start, to: Math.max(last, record.start + 600) }
 }
 
-/** The bars of a row that a span touches, as the first position and the one after the last. */
+/** The bars of a row that overlap a span, as the first position and the one after the last. */
 export function barsWithin({ bars, begins }: GanttRow, { from, to }: Span): [first: number, end: number] {
   const end = countUpTo(begins, to)
   // Bars do not overlap, so only the one that begins before the span can reach into it.
@@ -58,14 +59,14 @@ export function barsWithin({ bars, begins }: GanttRow, { from, to }: Span): [fir
   return bars.length === 0 ? [0, 0] : [first, end]
 }
 
-/** The bar of a row at a time; an outage only where there is nothing else to point at. */
+/** The bar of a row at a time; an outage only if there is no other. */
 export function barAt(row: GanttRow, time: Seconds): Bar | undefined {
   const bar = row.bars[countUpTo(row.begins, time) - 1]
   if (bar !== undefined && time < bar.ends) return bar
   return row.outages.find((outage) => outage.begins <= time && time < outage.ends)
 }
 
-/** What a click on a bar selects: its leg, or the aircraft if it has none. */
+/** The target that a click on a bar selects: its leg, or the aircraft if there is none. */
 export function targetOf(bar: Bar, record: DayRecord): Target {
   if (bar.leg === NONE) return { kind: 'aircraft', aircraft: bar.aircraft }
   return { kind: 'leg', aircraft: bar.aircraft, decided: at(record.legs, bar.leg).decided }

@@ -1,4 +1,5 @@
-// The layers of a timeline: rows, which are drawn again only when they change, and what moves with the time.
+// The layers of a timeline: the rows, which are redrawn only when they change, and the parts that
+// move with the time.
 
 import { changed } from '../map/painters/changes'
 import type { Seconds } from '../model/record'
@@ -19,7 +20,7 @@ export class Sheets {
   readonly #now = new Sheet()
   readonly #hasChanged = changed((rows: GanttPicture) => Object.values(rows))
 
-  /** Puts the layers into the elements of the axis and of the rows. */
+  /** Adds the layers to the elements of the axis and of the rows. */
   constructor(axis: HTMLElement, rows: HTMLElement) {
     axis.append(this.#axis.canvas)
     rows.append(this.#rows.canvas, this.#now.canvas)
@@ -38,7 +39,7 @@ export class Sheets {
     for (const sheet of [this.#axis, this.#rows, this.#now]) sheet.canvas.remove()
   }
 
-  /** Rows are drawn beside their names and never beneath them. */
+  /** Rows are drawn next to their names and never below them. */
   #paintRows(picture: GanttPicture, whole: { width: number; height: number }): void {
     const context = this.#rows.begin(whole)
     context.save()

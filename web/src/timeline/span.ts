@@ -1,4 +1,4 @@
-// The part of the day that a timeline shows. Spans are values: moving one makes another.
+// The visible part of the day in a timeline. Spans are values: moving one returns another.
 
 import type { Seconds } from '../model/record'
 
@@ -7,7 +7,7 @@ export interface Span {
   readonly to: Seconds
 }
 
-/** Nothing shorter is shown: bars of seconds are lines there. */
+/** The minimum span, at which bars of seconds are lines. */
 const SHORTEST_S = 300
 
 /** Steps of the axis, from minutes to half days, each a divisor of the day. */
@@ -24,7 +24,7 @@ export function panSpan(span: Span, seconds: Seconds, whole: Span): Span {
   return within({ from: span.from + seconds, to: span.to + seconds }, whole)
 }
 
-/** A span of the same length that shows a time, with some of what is around it. */
+/** A span of the same length that contains a time, with some context. */
 export function showTime(span: Span, time: Seconds, whole: Span): Span {
   const margin = 0.1 * (span.to - span.from)
   if (time < span.from + margin) return panSpan(span, time - span.from - margin, whole)
@@ -32,23 +32,28 @@ export function showTime(span: Span, time: Seconds, whole: Span): Span {
   return span
 }
 
-/** Pixels that an hour has at least where the whole day is shown, and how many it has where only a part of it is. */
+/** The minimum width of an hour when the whole day is shown, and its width when only a part is. */
 const HOUR_PX = { least: 75, good: 90 }
 
-/** What is shown of a day that happens until a person chooses otherwise: all of it where there is room for it, or else the
- *  hours around now, most of them ahead. The very object `whole` is returned for all of it. */
+/**
+ * The default span of a live day: the whole day if there is room for it, otherwise the hours around
+ * now, most of them ahead. For the whole day it returns the very object `whole`.
+ */
 export function liveSpan(time: Seconds, width: number, whole: Span): Span {
   if (HOUR_PX.least * (whole.to - whole.from) <= 3600 * width) return whole
   const length = (3600 * Math.max(1, width)) / HOUR_PX.good
   return within({ from: time - 0.25 * length, to: time + 0.75 * length }, whole)
 }
 
-/** Whether two spans show the same, to the second. */
+/** Whether two spans are equal, to the second. */
 export function isSameSpan(one: Span, other: Span): boolean {
   return Math.abs(one.from - other.from) < 1 && Math.abs(one.to - other.to) < 1
 }
 
-/** Goes on with a time that was in view and is about to leave it, so that the line of now stays where it can be seen. */
+/**
+ * Moves the span with a time that was visible and is about to leave it, so that the now line stays
+ * visible.
+ */
 export function follow(span: Span, former: Seconds, time: Seconds, whole: Span): Span {
   const length = span.to - span.from
   const wasInView = former >= span.from && former <= span.to
@@ -58,7 +63,7 @@ export function follow(span: Span, former: Seconds, time: Seconds, whole: Span):
   return isSameSpan(moved, span) ? span : moved
 }
 
-/** Moves a span that reaches beyond the whole back into it. */
+/** Moves a span that exceeds the whole back into it. */
 function within(span: Span, whole: Span): Span {
   const length = span.to - span.from
   if (span.from < whole.from) return { from: whole.from, to: Math.min(whole.to, whole.from + length) }
@@ -66,7 +71,7 @@ function within(span: Span, whole: Span): Span {
   return span
 }
 
-/** Where times are named: steps that are at least so many pixels apart. */
+/** The labelled times: round steps that are at least this many pixels apart. */
 export function ticks(span: Span, width: number, least_px: number): Seconds[] {
   const perPixel = (span.to - span.from) / Math.max(1, width)
   const step = STEPS_S.find((one) => one >= least_px * perPixel) ?? 86_400

@@ -1,4 +1,5 @@
-// Moving the selection with keys: along the legs of an aircraft, and from one aircraft to the next at the same time.
+// Moves the selection with keys: along the legs of an aircraft, and to the next aircraft at the
+// same time.
 
 import { at } from '../model/arrays'
 import type { DayRecord, LegRecord, Seconds } from '../model/record'
@@ -6,7 +7,10 @@ import { aircraftMeant, type Target } from '../model/target'
 
 export type Step = 'former' | 'next' | 'first' | 'last' | 'above' | 'below'
 
-/** What a step leads to. Without a selection it begins with the first aircraft, at the time that is shown. */
+/**
+ * The target of a step. Without a selection it starts with the first aircraft, at the displayed
+ * time.
+ */
 export function stepFrom(
   record: DayRecord,
   selected: Target | undefined,
@@ -27,7 +31,7 @@ export function stepFrom(
   return leg === undefined ? selected : { kind: 'leg', aircraft, decided: leg.decided }
 }
 
-/** The leg that an aircraft is on at a time, the first one before it, and the aircraft itself if it has none. */
+/** The leg of an aircraft at a time; otherwise its first leg, or the aircraft if it has no leg. */
 function legAt(record: DayRecord, aircraft: number, time: Seconds): Target | undefined {
   if (record.aircraft.length === 0) return undefined
   const legs = legsOf(record, aircraft)
@@ -39,13 +43,13 @@ function legsOf(record: DayRecord, aircraft: number): LegRecord[] {
   return record.legs.filter((leg) => leg.aircraft === aircraft)
 }
 
-/** The leg that is selected; undefined for an aircraft or a vertiport. */
+/** The selected leg; undefined if an aircraft or a vertiport is selected. */
 export function selectedLeg(record: DayRecord, target: Target | undefined): LegRecord | undefined {
   if (target?.kind !== 'leg') return undefined
   return record.legs.find((leg) => leg.aircraft === target.aircraft && leg.decided === target.decided)
 }
 
-/** A leg's position among all, by its target. */
+/** Whether a target is the leg at a position of the record. */
 export function isOfLeg(record: DayRecord, leg: number, target: Target | undefined): boolean {
   if (target?.kind !== 'leg' || leg < 0) return false
   const { aircraft, decided } = at(record.legs, leg)

@@ -1,4 +1,5 @@
-// The base map that the service was told to show in place of the bundled one (`serve --basemap`), which it names in the page.
+// The base map that replaces the bundled one (`serve --basemap`). The service writes its address
+// into the page.
 
 export function askedBasemap(): string | undefined {
   return document.querySelector<HTMLMetaElement>('meta[name="vertifleet-basemap"]')?.content

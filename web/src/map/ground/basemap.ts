@@ -1,5 +1,5 @@
-// A base map of the operator's own, beneath everything: a style or a PMTiles file at an address. MapLibre draws it and follows the
-// camera of the map; what a person does with the map is the map's own affair.
+// A custom base map under everything else: a style or a PMTiles file at an address. MapLibre draws
+// it and follows the map's camera. The map itself handles all gestures.
 
 import { addProtocol, Map, setWorkerUrl, type StyleSpecification } from 'maplibre-gl'
 import workerUrl from 'maplibre-gl/dist/maplibre-gl-worker.mjs?worker&url'
@@ -8,13 +8,13 @@ import { css } from '../../parts/colours'
 import type { GroundPicture } from './ground'
 import { styleOf } from './tileStyle'
 
-/** MapLibre counts zoom from a world that is so many pixels wide. */
+/** MapLibre's zoom 0 shows a world of this width in pixels. */
 const WORLD_PX = 512
 
 export interface BasemapOptions {
   address: string
   colours: GroundPicture['colours']
-  /** What the sources want to be named, once it is known. */
+  /** Receives the attribution of the sources, once it is known. */
   onattribution: (text: string) => void
   onerror: () => void
 }
@@ -36,7 +36,7 @@ export class Basemap {
     setWorkerUrl(workerUrl)
     if (!/\.pmtiles($|\?)/.test(options.address)) return new Basemap(options.address, options)
     const tiles = new PMTiles(options.address)
-    // The metadata have what is to be named on the map.
+    // The metadata contains the attribution.
     const protocol = new Protocol({ metadata: true })
     protocol.add(tiles)
     addProtocol('pmtiles', protocol.tile)
@@ -65,9 +65,9 @@ export class Basemap {
     this.#map.resize()
   }
 
-  /** Sources may write their names with links; only the words are shown. */
+  /** Sources may contain links in their attribution; only the words are shown. */
   #attribution(): string {
-    // The style knows only what it says itself; sources know what their tiles say too.
+    // The style contains only its own attribution; the sources include that of their tiles.
     const sources = Object.keys(this.#map.getStyle().sources).map((name) => this.#map.getSource(name))
     const words = sources.map((one) =>
       new DOMParser().parseFromString(one?.attribution ?? '', 'text/html').body.textContent.trim(),

@@ -1,12 +1,16 @@
-// Lines and rings of the base map as text: each point is the difference to the one before it, in thousandths of a degree, in
-// five bits a letter. The build writes them and the map reads them.
+// Encodes lines and rings of the base map as text. Each point is the difference to the previous
+// one, in thousandths of a degree, with five bits per letter. The build writes this text and the
+// map reads it.
 
 const LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_'
 const CODES = new Map(Array.from(LETTERS, (letter, code) => [letter, code]))
-/** Units of a degree: about a hundred metres, which is finer than the source. */
+/** Units per degree: one is about a hundred metres, which is finer than the source. */
 export const UNITS = 1000
 
-/** Points in degrees as text, from an origin in degrees. Points that fall on the one before are left out. */
+/**
+ * Encodes points in degrees as text, relative to an origin in degrees. Points equal to the previous
+ * one are left out.
+ */
 export function encode(
   points: readonly (readonly [number, number])[],
   origin: readonly [number, number],
@@ -22,7 +26,10 @@ export function encode(
   return text
 }
 
-/** A whole number, lowest bits first; the sign is the lowest bit, and the highest bit of a letter says that more follow. */
+/**
+ * Encodes an integer, lowest bits first. Its lowest bit is the sign, and a letter's highest bit
+ * means that more letters follow.
+ */
 function letters(number: number): string {
   let rest = number < 0 ? -2 * number - 1 : 2 * number
   let text = ''
@@ -33,7 +40,7 @@ function letters(number: number): string {
   return text + LETTERS.charAt(rest)
 }
 
-/** The points of a text in degrees, two numbers each. */
+/** Decodes text to points in degrees, two numbers each. */
 export function decode(text: string, origin: readonly [number, number]): Float64Array {
   const degrees: number[] = []
   const point: [number, number] = [0, 0]

@@ -1,6 +1,7 @@
-// How the base map is cut: into cells of a few degrees, which are drawn, and sectors of many cells, which are loaded.
+// The grid of the base map: cells of a few degrees, which are drawn, and sectors of many cells,
+// which are loaded.
 
-/** Degrees of a side. */
+/** The side of a cell in degrees. */
 export const CELL = 5
 export const SECTOR = 30
 
@@ -11,7 +12,7 @@ export interface CellText {
   borders?: string[]
 }
 
-/** A part of the world, degrees. East is above 180 where it lies across the antimeridian. */
+/** A part of the world in degrees. East is above 180 if the part crosses the antimeridian. */
 export interface Bounds {
   west: number
   south: number
@@ -19,7 +20,7 @@ export interface Bounds {
   north: number
 }
 
-/** The south-western corners of all squares of a grid that a part of the world touches. */
+/** The south-western corners of all grid squares that intersect a part of the world. */
 export function squares(bounds: Bounds, size: number): [west: number, south: number][] {
   const corners: [number, number][] = []
   for (let south = floorTo(bounds.south, size); south < bounds.north; south += size) {
@@ -28,7 +29,9 @@ export function squares(bounds: Bounds, size: number): [west: number, south: num
   return corners
 }
 
-/** The name of the sector or cell with a corner; longitudes are brought between -180 and 180. */
+/**
+ * The name of the sector or cell with a corner; longitudes are normalised to between -180 and 180.
+ */
 export function squareName([west, south]: readonly [number, number], separator: string): string {
   return `${((((west + 180) % 360) + 360) % 360) - 180}${separator}${south}`
 }

@@ -1,5 +1,6 @@
-// What lies beneath everything: land and sea with a graticule where there are coordinates, a quiet grid of miles where not. It is
-// drawn again only when the camera moves, the theme changes or more of the world has come.
+// The ground under everything else: land and sea with a graticule if there are coordinates,
+// otherwise a plain grid of miles. It is redrawn only when the camera moves, the theme changes or
+// more of the world has loaded.
 
 import { at } from '../../model/arrays'
 import { css } from '../../parts/colours'
@@ -9,7 +10,7 @@ import { CELL } from './grid'
 import { digitsOf, multiples, roundUp } from './steps'
 import { World, type Cell } from './world'
 
-/** Pixels between two lines of the grid, at least. */
+/** Minimum distance between two grid lines in pixels. */
 const GRID_PX = 110
 const BORDER_DASH = [6, 4]
 
@@ -58,7 +59,7 @@ export class Ground {
   }
 }
 
-/** Where a point of the base map is in the picture. */
+/** Converts a point of the base map to pixels. */
 function pointX({ plane, camera, size }: GroundPicture, ring: Float64Array, index: number): number {
   return pixelX(camera, size, plane.x(at(ring, index)))
 }
@@ -67,7 +68,10 @@ function pointY({ plane, camera, size }: GroundPicture, ring: Float64Array, inde
   return pixelY(camera, size, plane.y(at(ring, index + 1)))
 }
 
-/** Fills rings, those within others left out. The stroke closes the hairlines between the cells that land was cut into. */
+/**
+ * Fills rings, except for rings within others. The stroke closes the hairlines between the cells of
+ * the land.
+ */
 function fill(
   context: CanvasRenderingContext2D,
   picture: GroundPicture,
@@ -88,7 +92,7 @@ function fill(
   context.stroke()
 }
 
-/** The outline of a ring without the edges along which it was cut. */
+/** Draws the outline of a ring without the edges along which it was cut. */
 function strokeCoast(
   context: CanvasRenderingContext2D,
   picture: GroundPicture,
@@ -152,7 +156,7 @@ function gridFont(context: CanvasRenderingContext2D): string {
   return `10px ${getComputedStyle(context.canvas).fontFamily}`
 }
 
-/** Names stand at the upper and the left edge, where the fewest things are. */
+/** Labels are at the top and left edges, where they cover the least. */
 function nameGrid(
   context: CanvasRenderingContext2D,
   { plane, camera, size }: GroundPicture,

@@ -1,5 +1,6 @@
-// A style for tiles that come without one: water, land, roads and borders in the colours of the console. Layers are known by the
-// names that the usual schemas give them (OpenMapTiles, Protomaps, Shortbread).
+// A style for tiles that come without one: water, land, roads and borders in the colours of the
+// console. Layers are recognised by the names that the common schemas use (OpenMapTiles, Protomaps,
+// Shortbread).
 
 import type { LayerSpecification, StyleSpecification } from 'maplibre-gl'
 import { TileType } from 'pmtiles'
@@ -13,7 +14,10 @@ interface Header {
 
 const SOURCE = 'tiles'
 
-/** How a layer of vector tiles is drawn, by its name; the first that fits, from the ground up. */
+/**
+ * How a layer of vector tiles is drawn, by its name. The first match applies; the order is from the
+ * ground up.
+ */
 const looks: { names: RegExp; ink: Ink; kind: 'fill' | 'line'; width?: number }[] = [
   { names: /^(earth|land|landcover)$/, ink: 'land', kind: 'fill' },
   { names: /^(water|ocean|water_polygons)$/, ink: 'sea', kind: 'fill' },

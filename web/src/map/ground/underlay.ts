@@ -1,4 +1,4 @@
-// What lies beneath everything on a map as an element: the bundled base map, or one of the operator's own in its place.
+// The element under everything else on a map: the bundled base map, or a custom one instead.
 
 import { Sheet } from '../../parts/sheet'
 import { text } from '../../text/text'
@@ -24,15 +24,18 @@ export class Underlay {
     this.element.append(this.#sheet.canvas)
   }
 
-  /** Draws what lies beneath a picture, if that is not what is seen already. */
+  /** Draws the ground of a picture, unless it is unchanged. */
   paint(picture: GroundPicture): void {
     const hasChanged = this.#hasChanged(picture)
     this.#picture = picture
     if (hasChanged) this.#paintAgain()
   }
 
-  /** Shows another base map as soon as it is there, and the bundled one if it cannot be. `onattribution` is told what is to be named
-      on the map. Gives what takes it back. */
+  /**
+   * Replaces the bundled base map once another one has loaded; if loading fails, the bundled one
+   * stays. `onattribution` receives the attribution for the map. Returns a function that restores
+   * the bundled one.
+   */
   show(
     address: string,
     colours: GroundPicture['colours'],

@@ -1,5 +1,5 @@
-// The bundled base map: which cells a picture needs, loaded a sector at a time and kept. A page without a server carries its cells
-// itself.
+// The bundled base map. It finds the cells that a picture needs, loads them one sector at a time
+// and keeps them. A page without a server embeds its cells.
 
 import { addresses } from 'virtual:basemap'
 import { decode } from './encoding'
@@ -16,7 +16,7 @@ export interface Cell {
 
 type Sector = Readonly<Record<string, CellText | undefined>>
 
-/** Cells that a page carries in it. */
+/** The element with the cells that a page embeds. */
 const CARRIED = 'vertifleet-basemap'
 
 export class World {
@@ -24,13 +24,13 @@ export class World {
   readonly #cells = new Map<string, Cell>()
   readonly #carried: Sector
 
-  /** `onload` is called when more of the world can be drawn than before. */
+  /** `onload` is called when more of the world can be drawn. */
   constructor(private readonly onload: () => void) {
     const text = document.getElementById(CARRIED)?.textContent.trim() ?? ''
     this.#carried = text === '' ? {} : (JSON.parse(text) as Sector)
   }
 
-  /** The cells of a part of the world that are here. Those that are not are asked for. */
+  /** The loaded cells of a part of the world. Missing ones are requested. */
   cells(bounds: Bounds): Cell[] {
     for (const corner of squares(bounds, SECTOR)) this.#ask(squareName(corner, '_'))
     return squares(bounds, CELL).flatMap((corner) => this.#cell(corner) ?? [])
@@ -46,7 +46,7 @@ export class World {
         this.#sectors.set(sector, content)
         this.onload()
       })
-      // A picture without coasts is still a picture; it asks again when it is drawn next.
+      // The picture is usable without coasts. The next draw requests the sector again.
       .catch(() => this.#sectors.delete(sector))
   }
 

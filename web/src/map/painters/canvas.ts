@@ -1,5 +1,6 @@
-// Draws the network on canvases: one for what changes with decisions, one for what moves. With 500 aircraft a frame takes less
-// than 4 ms of scripting; WebGL layers, which are prepared anew in each frame, took five times as long.
+// Draws the network on two canvases: one for parts that change with decisions, one for parts that
+// move. With 500 aircraft a frame takes less than 4 ms of scripting. WebGL layers, which are
+// prepared again in each frame, took five times as long.
 
 import { at } from '../../model/arrays'
 import { COUNTED } from '../../model/counts'
@@ -24,7 +25,7 @@ import { Sheet } from '../../parts/sheet'
 import { drawSprites, FILLED, spriteName, toneOf, type Sprites } from './sprites'
 
 const TURN = 2 * Math.PI
-/** Aircraft further outside of the picture than this are not drawn. */
+/** Aircraft further outside the picture than this are not drawn. */
 const BEYOND_PX = 20
 
 export class CanvasPainter {
@@ -48,7 +49,9 @@ export class CanvasPainter {
     paintFleet(this.#moving.begin(picture.size), picture, this.#spritesFor(picture, aircraft_px))
   }
 
-  /** Pictures as large as the screen shows them, since a canvas draws pictures smaller only coarsely. */
+  /**
+   * Sprites have the size at which the screen shows them, because a canvas scales them down poorly.
+   */
   #spritesFor({ colours }: Picture, aircraft_px: number): Sprites {
     const side = 2 * Math.ceil((aircraft_px / FILLED) * devicePixelRatio)
     if (this.#sprites?.colours !== colours || this.#sprites.side !== side) {
@@ -89,7 +92,7 @@ function addFlownWay(
   context.lineTo(x, y)
 }
 
-/** The whole way of the selected aircraft: flown and ahead. */
+/** The whole route of the selected aircraft: flown and ahead. */
 function paintSelectedWay(
   context: CanvasRenderingContext2D,
   picture: Picture,

@@ -1,6 +1,8 @@
-// Whether anything has changed on which a layer depends: layers that stay the same are not drawn again.
+// Detects changes of a layer's dependencies, so that unchanged layers are not drawn again.
 
-/** Tells, picture by picture, whether what a layer depends on differs from the picture before. */
+/**
+ * Returns a function that reports whether a layer's dependencies differ from the previous picture.
+ */
 export function changed<P>(dependencies: (picture: P) => readonly unknown[]): (picture: P) => boolean {
   let former: readonly unknown[] = []
   return (picture) => {

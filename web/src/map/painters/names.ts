@@ -1,4 +1,5 @@
-// Draws what is read on the map: the name of each vertiport beside its ring, and how many aircraft stand there within it.
+// Draws the text on the map: the name of each vertiport next to its ring, and the number of
+// aircraft within it.
 
 import { at } from '../../model/arrays'
 import { css } from '../../parts/colours'
@@ -12,7 +13,7 @@ import { Sheet, type Size } from '../../parts/sheet'
 
 const NAME_PX = 12
 const NUMBER_PX = 10
-/** Numbers within smaller rings could not be read. */
+/** A number in a smaller ring would be illegible. */
 const LEAST_RADIUS_FOR_NUMBER = 12
 const LINE_PX = 13
 
@@ -41,7 +42,7 @@ export class NamesPainter {
   }
 }
 
-/** Where the buttons and the key of the map lie over it: no name could be read there. */
+/** The areas that the map's buttons and key cover; names there would be illegible. */
 function controls({ width, height }: Size): Rectangle[] {
   return [
     { left: width - 48, top: 0, right: width, bottom: 148 },
@@ -109,7 +110,9 @@ function paintNumber(
   context.fillText(String(label.taken), label.x, label.y + 0.5)
 }
 
-/** Text keeps a rim of the ground around it, so that it is legible over ways and coasts. */
+/**
+ * Text has an outline in the colour of the ground, so that it is legible over routes and coasts.
+ */
 function paintName(
   context: CanvasRenderingContext2D,
   { colours }: Picture,

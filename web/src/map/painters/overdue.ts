@@ -1,4 +1,4 @@
-// Marks aircraft that are overdue, over everything else on the map: a ring, and by how many minutes.
+// Marks overdue aircraft on top of the map with a ring and the number of minutes.
 
 import { at } from '../../model/arrays'
 import { NONE } from '../../model/motion'
@@ -51,7 +51,10 @@ export class OverduePainter {
   }
 }
 
-/** Whether an aircraft is to the left of the vertiport where it is heard of or awaited: its minutes stand on the other side of it. */
+/**
+ * Whether an aircraft is to the left of the vertiport where it was last reported or is expected.
+ * Its minutes are then on the other side.
+ */
 function isLeftOfVertiport(picture: Picture, aircraft: number, x: number): boolean {
   const { scene } = picture
   const stands = at(scene.frame.stands, aircraft)

@@ -1,5 +1,6 @@
-// Pictures of aircraft: one for each colour and each number of quarters of the seats that are taken. To draw a picture some hundred
-// times a frame costs a tenth of what it costs to draw the shape.
+// Sprites of aircraft: one for each colour and each number of quarters of the seats that are taken.
+// Drawing a sprite costs a tenth of drawing the shape, which matters for some hundred aircraft a
+// frame.
 
 import { at } from '../../model/arrays'
 import { Phase } from '../../model/motion'
@@ -7,7 +8,7 @@ import { css, type ColourName, type Rgb } from '../../parts/colours'
 import type { Scene } from '../scene'
 import { AIRCRAFT_SHAPE, fillOf } from './painter'
 
-/** How much of the picture the aircraft fills; the rest is its rim. */
+/** How much of the sprite the aircraft fills; the rest is margin. */
 export const FILLED = 0.78
 const LOADS = 5
 const tones = ['flying', 'waiting', 'bad', 'accent'] as const
@@ -19,7 +20,7 @@ export interface Sprites {
   mapping: Record<string, { x: number; y: number; width: number; height: number }>
 }
 
-/** The colour of an aircraft on its way: that it is overdue matters more than whether it has taken off. */
+/** The colour of an aircraft. Being overdue takes precedence over whether it has taken off. */
 export function toneOf(scene: Scene, aircraft: number, isMarked: boolean): Tone {
   if (isMarked) return 'accent'
   if (scene.isOverdue(aircraft)) return 'bad'
@@ -30,7 +31,7 @@ export function spriteName(tone: Tone, load: number): string {
   return `${tone}-${load === 0 ? 0 : Math.max(1, Math.round(load * (LOADS - 1)))}`
 }
 
-/** Draws all pictures, each a square of so many pixels. */
+/** Draws all sprites, each a square with this side in pixels. */
 export function drawSprites(colours: Record<ColourName, Rgb>, side: number): Sprites {
   const image = document.createElement('canvas')
   image.width = LOADS * side
