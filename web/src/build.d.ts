@@ -1,2 +1,4 @@
-/** Whether the page carries everything with it, as reports do, and so has no base map of the operator's own. */
+/**
+ * Whether the page embeds everything it needs, as reports do. Such a page has no custom base map.
+ */
 declare const __EMBEDDED__: boolean

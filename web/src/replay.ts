@@ -1,4 +1,4 @@
-// Starts the page that reports embed: the replay of the days that stand in the page itself, without a service.
+// Starts the page that reports embed: the replay of days contained in the page, without a service.
 
 import { mount } from 'svelte'
 import './style.css'

@@ -1,5 +1,5 @@
-// What the console asks of the service. Every write has a key, so that a write that got no answer is sent again without
-// happening twice; every refusal is thrown as a ProblemError.
+// The console's requests to the service. Every write has an idempotency key, so a write without an
+// answer can be sent again without happening twice. Every refusal is thrown as a ProblemError.
 
 import createClient, { type Client } from 'openapi-fetch'
 import type { Scenario } from '../model/scenario'
@@ -29,20 +29,20 @@ import type {
   WhatIf,
 } from './types'
 
-/** Events that are read at once; the most that the service gives. */
+/** Events per request: the maximum that the service allows. */
 const PAGE = 1000
-/** How long to wait before a request that got no answer is sent again. */
+/** How long to wait before a request without an answer is sent again. */
 const PAUSES_MS = [300, 1000, 2500]
 
 export interface ServiceOptions {
   /** The token of the session, if there is one. */
   token: () => string | undefined
-  /** Where the service is; the page's own origin if absent. */
+  /** The address of the service; the page's own origin if absent. */
   base?: string
   fetch?: (request: Request) => Promise<Response>
 }
 
-/** The service as the console sees it. */
+/** A client of the service. */
 export class Service {
   readonly #client: Client<paths>
   readonly #options: ServiceOptions
@@ -61,13 +61,13 @@ export class Service {
     })
   }
 
-  /** The headers of every request: who asks. */
+  /** The headers of every request, which carry the token. */
   headers(): Record<string, string> {
     const token = this.#options.token()
     return token === undefined ? {} : { Authorization: `Bearer ${token}` }
   }
 
-  /** Where events of a day are streamed from. */
+  /** The address of a day's event stream. */
   streamUrl(day: string): string {
     return `${this.#options.base ?? ''}/v1/days/${encodeURIComponent(day)}/stream`
   }
@@ -76,7 +76,9 @@ export class Service {
     return answer(await this.#client.GET('/v1'))
   }
 
-  /** All days, the latest first; with `progress`, how far those are that can still change. */
+  /**
+   * All days, the latest first. With `progress`, days that can still change include their progress.
+   */
   async days({ progress = false } = {}): Promise<DayInfo[]> {
     const days: DayInfo[] = []
     let after: string | null | undefined
@@ -112,7 +114,7 @@ export class Service {
     return answer(await this.#client.GET('/v1/days/{day}/trace.csv', { params, parseAs: 'text' }))
   }
 
-  /** All events after a number. */
+  /** All events after a sequence number. */
   async events(day: string, after: number): Promise<TakenEvent[]> {
     const events: TakenEvent[] = []
     let next: number | null | undefined = after
@@ -138,7 +140,7 @@ export class Service {
     return answer(await this.#client.GET(path, { params: { path: { day, aircraft }, query } }))
   }
 
-  /** Takes a decision. With `seq` it fails if the day has gone on since. */
+  /** Takes a decision. With `seq` it fails if the day has advanced since that event. */
   async decide(day: string, body: NewDecision, seq?: number): Promise<TakenDecision> {
     const header = { ...freshKey(), ...ifMatch(seq) }
     return answer(
@@ -146,13 +148,16 @@ export class Service {
     )
   }
 
-  /** How the day is expected to go on; with `seq`, how it was after that event, and in the morning with 0. */
+  /**
+   * How the day is expected to continue. With `seq`, the outlook right after that event; 0 is the
+   * morning.
+   */
   async outlook(day: string, policy?: string, seq?: number): Promise<Outlook> {
     const query = { ...(policy === undefined ? {} : { policy }), ...(seq === undefined ? {} : { seq }) }
     return answer(await this.#client.GET('/v1/days/{day}/outlook', { params: { path: { day }, query } }))
   }
 
-  /** Who waits in the present period. */
+  /** The passengers who wait in the current period. */
   async demand(day: string): Promise<PeriodDemand> {
     return answer(await this.#client.GET('/v1/days/{day}/demand', { params: { path: { day } } }))
   }
@@ -196,7 +201,7 @@ export class Service {
     return answer(await this.#client.POST('/v1/studies', { params: { header: freshKey() }, body }))
   }
 
-  /** The page with the result of a study. */
+  /** The report page of a study. */
   async studyReport(study: string): Promise<string> {
     const params = { path: { study } }
     return answer(await this.#client.GET('/v1/studies/{study}/report', { params, parseAs: 'text' }))
@@ -209,7 +214,7 @@ export class Service {
     return days as unknown as ReplayDay[]
   }
 
-  /** Ends a study if it plays or waits, and forgets it. */
+  /** Stops a study if it is running or waiting, and deletes it. */
   async endStudy(study: string): Promise<void> {
     answer(await this.#client.DELETE('/v1/studies/{study}', { params: { path: { study } } }))
   }
@@ -219,7 +224,7 @@ export class Service {
   }
 }
 
-/** A key that no other request has, drawn at random as the service advises. */
+/** A unique key, drawn at random as the service recommends. */
 function freshKey(): { 'Idempotency-Key': string } {
   return { 'Idempotency-Key': `console-${crypto.randomUUID()}` }
 }
@@ -228,13 +233,16 @@ function ifMatch(seq: number | undefined): { 'If-Match'?: string } {
   return seq === undefined ? {} : { 'If-Match': `"${seq}"` }
 }
 
-/** What the service answered, or its refusal as an error. */
+/** Returns the answer of the service, or throws its refusal as an error. */
 function answer<T>(result: { data?: T; error?: unknown; response: Response }): T {
   if (!result.response.ok) throw problemOf(result.response.status, result.error)
   return result.data as T
 }
 
-/** Sends a request again if no answer comes and nothing can happen twice: it only reads, or it has a key. */
+/**
+ * Sends a request again if there is no answer and a repetition is safe: it only reads, or it has a
+ * key.
+ */
 async function patiently(send: (request: Request) => Promise<Response>, request: Request): Promise<Response> {
   const isSafe = request.method === 'GET' || request.headers.has('Idempotency-Key')
   const pauses = isSafe ? PAUSES_MS : []

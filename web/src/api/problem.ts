@@ -1,4 +1,5 @@
-// Errors as the service answers them (RFC 9457): each has a stable code, says what is wrong, and mostly what to do.
+// Errors in the service's format (RFC 9457): each has a stable code, a description and usually a
+// remedy.
 
 import type { components } from './schema'
 
@@ -6,9 +7,12 @@ import type { components } from './schema'
 export class ProblemError extends Error {
   override readonly name = 'ProblemError'
   constructor(
-    /** The status of HTTP; 0 if no answer came. */
+    /** The HTTP status; 0 if there was no answer. */
     readonly status: number,
-    /** The stable code of the error index, for example `V604`; empty if it was not the service that answered. */
+    /**
+     * The stable code from the error index, for example `V604`; empty if the answer did not come
+     * from the service.
+     */
     readonly code: string,
     readonly detail: string,
     readonly hint: string | undefined,
@@ -17,18 +21,21 @@ export class ProblemError extends Error {
   }
 }
 
-/** What was caught, if a request was refused; anything else is an error of our own, and not hidden. */
+/** Returns the caught refusal. Any other error is a bug and is thrown again. */
 export function refusal(cause: unknown): ProblemError {
   if (cause instanceof ProblemError) return cause
   throw cause
 }
 
-/** No answer came: the service does not run, or the network is away. */
+/** There was no answer: the service is not running, or the network is down. */
 export function noAnswer(cause: unknown): ProblemError {
   return new ProblemError(0, '', cause instanceof Error ? cause.message : String(cause), undefined)
 }
 
-/** Reads the problem in an answer. A proxy may have answered instead of the service, with anything. */
+/**
+ * Reads the problem in an answer. A proxy may have answered instead of the service, so the body can
+ * be anything.
+ */
 export function problemOf(status: number, body: unknown): ProblemError {
   if (isProblem(body)) return new ProblemError(status, body.code, body.detail, body.hint ?? undefined)
   return new ProblemError(

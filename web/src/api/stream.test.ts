@@ -38,7 +38,7 @@ describe('messages', () => {
   })
 })
 
-/** Answers one request after the other, and records with which numbers they asked. */
+/** Answers requests in order, and records the sequence numbers that they asked for. */
 class FakeService {
   readonly askedAfter: string[] = []
   readonly connections: Connection[] = []

@@ -1,32 +1,41 @@
-// Follows the events of a day (server-sent events over fetch: an EventSource cannot send a token in a header). A lost
-// connection is taken up again where it ended, so no event is missed or seen twice.
+// Follows the events of a day: server-sent events over fetch, because an EventSource cannot send a
+// token in a header. After a lost connection it resumes where it stopped, so it neither misses nor
+// repeats an event.
 
 import { noAnswer, problemOf, type ProblemError } from './problem'
 import type { TakenEvent } from './types'
 
-/** How the stream is: `healing` while it is taken up again, `lost` if that has failed for a while or never can succeed. */
+/**
+ * The state of the stream: `healing` while it reconnects, `lost` if that has failed for a while or
+ * cannot succeed.
+ */
 export type Connection = 'connecting' | 'connected' | 'healing' | 'lost'
 
-/** The service sends a sign of life every 2 s; a connection that is silent for longer than this is dead. */
+/**
+ * The service sends a heartbeat every 2 s; a connection that is silent for longer than this is
+ * dead.
+ */
 const SILENCE_MS = 15_000
-/** After so long without a connection a person should know that it is lost. The stream keeps trying. */
+/** After this time without a connection the user is informed. The stream keeps trying. */
 const LOST_AFTER_MS = 10_000
 const FIRST_PAUSE_MS = 250
 const LONGEST_PAUSE_MS = 5_000
 
-/** The log of the day differs from what the client has read: the day was put back from a copy. */
+/**
+ * The log of the day differs from the one that the client read: the day was restored from a copy.
+ */
 const OTHER_LOG = 'V631'
 
 export interface StreamOptions {
   url: string
   headers: () => Record<string, string>
-  /** The mark of the last event that is known; undefined before the first. */
+  /** The id of the last event that was read; undefined before the first. */
   after: string | undefined
   onEvents: (events: TakenEvent[]) => void
   onConnection: (connection: Connection, problem?: ProblemError) => void
-  /** The service has sent something, be it only a sign of life. */
+  /** The service has sent something, at least a heartbeat. */
   onSign?: () => void
-  /** The log of the day differs from what was read: everything about it has to be read again. */
+  /** The log of the day differs from the one that was read, so everything has to be read again. */
   onRewound: () => void
   fetch?: typeof fetch
   pause?: (ms: number) => Promise<void>
@@ -54,7 +63,7 @@ async function keepFollowing(options: StreamOptions, stop: AbortSignal): Promise
       lostAt = now()
       options.onEvents(events)
     })
-    // eslint-disable-next-line @typescript-eslint/no-unnecessary-condition -- it may have been stopped while it waited.
+    // eslint-disable-next-line @typescript-eslint/no-unnecessary-condition -- set meanwhile.
     if (stop.aborted) return
     if (ended.wasConnected) {
       attempts = 0
@@ -74,12 +83,12 @@ async function keepFollowing(options: StreamOptions, stop: AbortSignal): Promise
   }
 }
 
-/** Whether asking again cannot help: the service answered and refused who asks, or what for. */
+/** Whether another request cannot help, because the service refused the user or the resource. */
 function isFinal(problem: ProblemError): boolean {
   return problem.status >= 400 && problem.status < 500 && problem.status !== 408 && problem.status !== 429
 }
 
-/** One connection, from its beginning to its end, whatever ends it. */
+/** One connection, from its beginning to its end for any reason. */
 async function followOnce(
   options: StreamOptions,
   after: string | undefined,
@@ -119,7 +128,7 @@ async function followOnce(
   }
 }
 
-/** Messages of another type, such as `behind`, say nothing that is not in the events themselves. */
+/** Messages of other types, such as `behind`, add nothing to the events. */
 function isEvent(message: Message): boolean {
   return message.type === 'message'
 }
@@ -133,7 +142,7 @@ async function bodyOf(response: Response): Promise<unknown> {
   }
 }
 
-/** Ends a connection that has been silent for too long, or that is no longer wanted. */
+/** Aborts a connection that has been silent for too long, or that is no longer needed. */
 class Silence {
   readonly #ending = new AbortController()
   readonly #stop: AbortSignal
@@ -170,7 +179,10 @@ export interface Message {
   id: string | undefined
 }
 
-/** Reads messages from bytes that may be cut anywhere, within a line or a character (WHATWG HTML, 9.2.6). */
+/**
+ * Reads messages from bytes that may be split anywhere, even inside a line or a character (WHATWG
+ * HTML, 9.2.6).
+ */
 export class MessageReader {
   readonly #decoder = new TextDecoder()
   #rest = ''

@@ -1,4 +1,5 @@
-// The words of the API under short names. They are generated from its description and never written by hand.
+// Short names for the types of the API. They are generated from its description and never written
+// by hand.
 
 import type { components } from './schema'
 

@@ -1,5 +1,5 @@
-// The colours of the style sheet, for pictures that are drawn on a canvas. A custom property is text until a property that
-// takes a colour uses it, so each is read through an element that does.
+// Reads the style sheet's colours, for drawing on a canvas. A custom property is text until a
+// colour property uses it, so each is read through an element that does.
 
 export const colourNames = [
   'ground',
@@ -33,7 +33,10 @@ export const colourNames = [
 export type ColourName = (typeof colourNames)[number]
 export type Rgb = [red: number, green: number, blue: number]
 
-/** Every colour as red, green and blue from 0 to 255, as they hold within an element. Read again when the theme changes. */
+/**
+ * All colours as red, green and blue from 0 to 255, as computed within an element. They are read
+ * again when the theme changes.
+ */
 export function colours(within: Element): Record<ColourName, Rgb> {
   const probe = document.createElement('span')
   probe.hidden = true
@@ -51,7 +54,7 @@ export function css([red, green, blue]: Rgb, opacity = 1): string {
   return `rgb(${red} ${green} ${blue} / ${opacity})`
 }
 
-/** Reads `rgb(1, 2, 3)`, which is how browsers compute a colour of the style sheet. */
+/** Parses `rgb(1, 2, 3)`, the format in which browsers compute colours. */
 function rgbOf(computed: string): Rgb {
   const [red = 0, green = 0, blue = 0] = (computed.match(/[\d.]+/g) ?? []).map(Number)
   return [red, green, blue]

@@ -1,6 +1,6 @@
-// Gives a text to the person as a file.
+// Offers a text to the user as a file.
 
-/** Saves a text where the browser keeps what is downloaded. */
+/** Saves a text in the browser's download folder. */
 export function download(content: string, name: string, type: string): void {
   const link = document.createElement('a')
   link.href = URL.createObjectURL(new Blob([content], { type }))

@@ -1,4 +1,5 @@
-// Pointers on a picture: which one drags, which two pinch, and what is a click. Maps and timelines decide what these mean.
+// Pointer gestures on a picture: dragging with one, pinching with two, and clicking. Maps and
+// timelines decide what these mean.
 
 /** A place in a picture, pixels. */
 export interface Pixel {
@@ -14,7 +15,7 @@ export interface PointerActions {
   drag: (from: Pixel, to: Pixel, isTouch: boolean) => void
   /** One finger has moved, the other has not. */
   pinch: (other: Pixel, from: Pixel, to: Pixel) => void
-  /** The wheel has turned, by pixels or lines that count as such. */
+  /** The wheel has turned, by pixels, or by lines converted to pixels. */
   wheel: (event: WheelEvent, at: Pixel, pixels: number) => void
   doubleClick?: (event: MouseEvent, at: Pixel) => void
 }

@@ -1,12 +1,13 @@
-// A canvas that is as sharp as the screen: it has a pixel for each pixel of the screen, and is drawn on in those of the page.
+// A canvas at the resolution of the screen: its pixels are device pixels, while drawing uses CSS
+// pixels.
 
-/** Pixels of the page. */
+/** CSS pixels. */
 export interface Size {
   readonly width: number
   readonly height: number
 }
 
-/** More would be slower, and no eye sees it. */
+/** Higher resolutions would be slower without a visible difference. */
 const MOST_RATIO = 2
 
 export class Sheet {
@@ -19,7 +20,7 @@ export class Sheet {
     this.#context = context
   }
 
-  /** An empty sheet of a size to draw on. */
+  /** Clears the canvas, sets its size and returns the context to draw on. */
   begin({ width, height }: Size): CanvasRenderingContext2D {
     const ratio = Math.min(MOST_RATIO, devicePixelRatio)
     const [wide, tall] = [Math.round(width * ratio), Math.round(height * ratio)]

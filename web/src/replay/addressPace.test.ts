@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { AddressPace } from './addressPace'
 
-/** How many changes are let through of those that are wanted at every so many milliseconds of a time. */
+/** The number of changes allowed if one is requested every `every_ms` for a time. */
 function changesIn(length_ms: number, every_ms: number): number {
   const pace = new AddressPace()
   let changes = 0

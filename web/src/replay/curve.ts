@@ -1,4 +1,5 @@
-// The curves above the scrubber: who wanted to fly and who flew, period by period, and what each play had earned by when.
+// The curves above the scrubber: demand and passengers carried by period, and the profit of each
+// play over time.
 
 import { at } from '../model/arrays'
 import type { Earnings, PeriodSums } from '../model/earnings'
@@ -11,7 +12,7 @@ export interface CurvePicture {
   size: Size
   colours: Record<ColourName, Rgb>
   periods: readonly PeriodSums[]
-  /** One play, or two that are compared. */
+  /** One play, or two for comparison. */
   earnings: readonly Earnings[]
 }
 
@@ -22,7 +23,7 @@ export function paintCurves(context: CanvasRenderingContext2D, picture: CurvePic
   else if (one !== undefined) paintEarnings(context, picture, one)
 }
 
-/** The profits, or differences of them, that the lower and the upper edge of the curves stand for. */
+/** The profits, or differences of profits, at the bottom and top edges of the curves. */
 export function edges([one, other]: readonly Earnings[]): { low: number; high: number } {
   if (one === undefined) return { low: 0, high: 0 }
   if (other === undefined) {
@@ -54,7 +55,7 @@ function paintPeriods(context: CanvasRenderingContext2D, picture: CurvePicture):
   }
 }
 
-/** The profit so far. It rises at decisions and stays the same in between. */
+/** The profit so far. It changes at decisions and is constant in between. */
 function paintEarnings(context: CanvasRenderingContext2D, picture: CurvePicture, earnings: Earnings): void {
   const { size, colours } = picture
   const { low, high } = edges([earnings])
@@ -78,7 +79,7 @@ function paintEarnings(context: CanvasRenderingContext2D, picture: CurvePicture,
   context.stroke()
 }
 
-/** By how much one play was ahead of the other: above the middle where it was, below where it was behind. */
+/** The lead of one play over the other: above the middle if it led, below if it trailed. */
 function paintDifference(
   context: CanvasRenderingContext2D,
   picture: CurvePicture,

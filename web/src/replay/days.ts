@@ -1,5 +1,5 @@
-// Days to replay: a scenario and what one or more policies made of it. They come from files, from the service, or from the page
-// itself.
+// Days to replay: a scenario and its plays by one or more policies. They come from files, from the
+// service, or from the page itself.
 
 import { Earnings } from '../model/earnings'
 import type { DayRecord, Seconds } from '../model/record'
@@ -15,20 +15,22 @@ import {
   recordOf,
 } from '../model/traces'
 
-/** A day as the page of a report holds it. */
+/** A day as stored in a report's page. */
 export interface ReplayDay {
   name: string
   scenario: Scenario
   plays: Play[]
-  /** How far it has come, if more of it is yet to come: what is compared is compared up to then. */
+  /** The current time of a day that is not over; comparisons extend up to it. */
   until?: Seconds
 }
 
-/** What one policy made of a day: a trace as files and reports have it, or a record that was made of something else. */
+/**
+ * One policy's play of a day: a trace, as in files and reports, or a record from another source.
+ */
 export type Play = TracedPlay | RecordedPlay
 
 export interface TracedPlay {
-  /** What it is called, also in addresses. */
+  /** Its name, also in addresses. */
   policy: string
   /** The text of the trace. */
   trace: string
@@ -37,12 +39,12 @@ export interface TracedPlay {
 }
 
 export interface RecordedPlay {
-  /** What it is called in addresses. */
+  /** Its name in addresses. */
   policy: string
-  /** What it is called in the page, and what that means. */
+  /** Its name in the page, and an explanation of it. */
   title: string
   explanation?: string
-  /** Whether it is what a policy planned for the day that was forecast, and nothing that was flown. */
+  /** Whether it is a policy's plan for the forecast day rather than a flown day. */
   isPlan?: boolean
   record: DayRecord
   profit_usd?: undefined
@@ -54,8 +56,10 @@ export interface Played {
   title: string
   explanation?: string | undefined
   isPlan: boolean
-  /** Whether it was played on the day of the scenario, as all its traces are: then its decisions can be weighed against those of
-   *  another such play. What happened, and what was planned, were days of their own. */
+  /**
+   * Whether it was played on the scenario's day, as all its traces are. Its decisions can then be
+   * compared with those of another such play. The actual day and a plan are different days.
+   */
   isOfScenario: boolean
   record: DayRecord
   earnings: Earnings
@@ -71,8 +75,10 @@ export function playedOf({ scenario }: ReplayDay, play: Play): Played {
   return { policy, ...titled, ...kind, earnings: new Earnings(titled.record, fixedCost(scenario)) }
 }
 
-/** The plays that are looked at first: the one that is named, or else the best; and beside it the other that is named, or else the
- *  best of the others. An empty name asks for none beside it. */
+/**
+ * The plays to show first: the named one, otherwise the best; and next to it the other named one,
+ * otherwise the best of the rest. An empty name means no second play.
+ */
 export function chosenPlays(
   plays: readonly Play[],
   policy: string | undefined,
@@ -84,7 +90,7 @@ export function chosenPlays(
   return { play, other: isAlone ? undefined : (others.find((one) => one.policy === other) ?? best(others)) }
 }
 
-/** What earned most; the first of those whose profits are not known. */
+/** The play with the highest profit; the first one if profits are unknown. */
 function best(plays: readonly Play[]): Play | undefined {
   const profit = (one: Play) => one.profit_usd ?? -Infinity
   return plays.reduce<Play | undefined>(
@@ -93,7 +99,7 @@ function best(plays: readonly Play[]): Play | undefined {
   )
 }
 
-/** The days that a page carries; none if it is the page of no report. */
+/** The days in a page; none if the page is not part of a report. */
 export function embeddedDays(text: string): ReplayDay[] {
   if (text.trim() === '') return []
   return (JSON.parse(text) as { days: ReplayDay[] }).days
@@ -104,11 +110,14 @@ export interface NamedText {
   text: string
 }
 
-/** Makes a day of files: one scenario and any number of traces, which are called as their files; or adds traces to a day that is there.
- *  Says of every file that cannot be shown what is wrong with it. */
+/**
+ * Makes a day from files: one scenario and any number of traces, named after their files.
+ * Alternatively adds traces to an existing day. Reports the fault of every file that cannot be
+ * shown.
+ */
 export function dayOfFiles(files: readonly NamedText[], former?: ReplayDay): ReplayDay {
   const faults: FileError[] = []
-  /** What is read of a file; undefined if it is wrong, which is kept. */
+  /** Reads a file; undefined if it is faulty, in which case the fault is collected. */
   const attempt = <T>({ name }: NamedText, read: () => T): T | undefined => {
     try {
       return read()
@@ -132,7 +141,7 @@ export function dayOfFiles(files: readonly NamedText[], former?: ReplayDay): Rep
     .filter((file) => !scenarios.includes(file))
     .flatMap((file): Play[] => {
       const trace = file.text
-      // Reading it says now what is wrong with the file, and not when it is looked at.
+      // Reading the trace now reports a fault immediately rather than when it is shown.
       const record = attempt(file, () => {
         if (!isTrace(trace)) throw noTrace(trace)
         return scenario && recordOf(scenario, trace)
@@ -140,16 +149,16 @@ export function dayOfFiles(files: readonly NamedText[], former?: ReplayDay): Rep
       if (scenario === undefined || record === undefined) return []
       return [{ policy: policyOf(file.name, scenario.name), trace }]
     })
-  // What is missing is said of files that are sound as far as they go.
+  // Missing files are reported only if the others are valid.
   if (faults.length > 0) throw new FilesError(faults)
   if (scenario === undefined) throw new FilesError([new FileError({ what: 'scenario-missing' })])
-  // A file that is given again takes the place of what it was.
+  // A file with the name of an earlier one replaces it.
   const plays = [...new Map([...(kept?.plays ?? []), ...added].map((one) => [one.policy, one])).values()]
   if (added.length === 0) throw new FilesError([new FileError({ what: 'trace-missing' })])
   return { ...(kept ?? { name: scenario.name, scenario }), plays }
 }
 
-/** `prices` of `new-york-100-prices.csv`: what the name of a trace adds to that of its day. */
+/** `prices` for `new-york-100-prices.csv`: the part of a trace's name after the name of its day. */
 function policyOf(file: string, day: string): string {
   const name = file.replace(/^.*[/\\]/, '').replace(/\.[^.]*$/, '')
   const added = name.startsWith(day) ? name.slice(day.length).replace(/^[-_. ]+/, '') : name

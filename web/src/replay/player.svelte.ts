@@ -1,11 +1,11 @@
-// Plays a day: a clock that a person starts, stops, speeds up and moves.
+// Playback of a day: a clock that a user can start, stop, speed up and move.
 
 import { countUpTo } from '../model/arrays'
 import type { Seconds } from '../model/record'
 
-/** Seconds of the day in a second. */
+/** Seconds of the day per second. */
 export const SPEEDS = { least: 1, most: 3600, first: 300 }
-/** With reduced motion, pictures change once in this time instead of at every frame. */
+/** With reduced motion, pictures are updated at this interval instead of every frame. */
 const CALM_MS = 1_000
 
 export interface Span {
@@ -23,7 +23,7 @@ export class Player {
     return this.#span
   }
 
-  /** Takes another day; a time that lies within it is kept. */
+  /** Loads another day; the time is kept if it lies within it. */
   load(span: Span): void {
     this.#span = span
     this.time = this.time < span.from || this.time > span.to ? span.from : this.time
@@ -38,7 +38,7 @@ export class Player {
     this.time = Math.max(this.#span.from, Math.min(this.#span.to, time))
   }
 
-  /** Goes to the next or the former of some times, and stops there. */
+  /** Moves to the next or previous of the given times, and stops there. */
   step(times: ArrayLike<Seconds>, direction: 1 | -1): void {
     this.isPlaying = false
     const passed = direction === 1 ? countUpTo(times, this.time) : countUpTo(times, this.time - 1e-6) - 1

@@ -1,5 +1,6 @@
-// Advice for one aircraft, as a person reads and takes it. What is shown never changes while the user works with it: if the
-// day moves on meanwhile, the newer advice waits until it is asked for.
+// Advice for one aircraft, as a user reads and accepts it. The displayed advice never changes while
+// the user works with it. If the day advances meanwhile, the newer advice waits until the user asks
+// for it.
 
 import { refusal, ProblemError } from '../api/problem'
 import type { Service } from '../api/client'
@@ -7,26 +8,29 @@ import type { Proposal, TakenDecision } from '../api/types'
 import { isSameAdvice } from '../model/decisions'
 import { Refresher } from './refresher'
 
-/** The day has gone on since what the request was made for. */
+/** HTTP status: the day has advanced since the event of the request. */
 const GONE_ON = 412
-/** How often an acceptance is tried again when the day goes on while the advice stays the same. */
+/** How often an acceptance is retried if the day advances while the advice stays the same. */
 const TRIES = 6
 const PACE = { soon_ms: 80, least_ms: 700, share: 3 }
-/** Advice can be taken once it has been seen: a key that is pressed twice must not decide for the next aircraft too. */
+/**
+ * Advice can be accepted only after it has been visible this long, so that a double key press does
+ * not also decide for the next aircraft.
+ */
 const SEEN_MS = 350
-/** A decision that has no answer after this time is said to have none. */
+/** A decision without an answer after this time is shown as unanswered. */
 const ANSWER_MS = 2_000
 
-/** What came of taking a decision. */
+/** The result of a decision. */
 export type Outcome = { kind: 'taken'; taken: TakenDecision } | { kind: 'changed' } | { kind: 'none' }
 
 export class Advisor {
-  /** For whom advice is asked. */
+  /** The aircraft of the advice. */
   aircraft = $state<string>()
-  /** The policy that is asked; the day's own if absent. */
+  /** The policy that gives the advice; the day's own if absent. */
   policy = $state<string>()
   proposal = $state.raw<Proposal>()
-  /** Advice that differs from what is shown, and waits. */
+  /** Newer advice that differs from the displayed one and waits. */
   newer = $state.raw<Proposal>()
   /** Why there is no advice. */
   problem = $state.raw<ProblemError>()
@@ -35,7 +39,7 @@ export class Advisor {
   isUnanswered = $state(false)
   /** Whether the user points at the advice or has the focus in it. */
   isEngaged = $state(false)
-  /** Whether the advice has been shown for long enough to be meant by a user who takes it. */
+  /** Whether the advice has been visible for long enough that an acceptance is intentional. */
   #isSeen = $state(false)
   #seeing: ReturnType<typeof setTimeout> | undefined
   #asked = 0
@@ -51,7 +55,7 @@ export class Advisor {
     clearTimeout(this.#seeing)
   }
 
-  /** Asks for advice about an aircraft, in the place of what is shown. */
+  /** Asks for advice about an aircraft, replacing the displayed advice. */
   async ask(aircraft: string | undefined, policy = this.policy): Promise<void> {
     if (aircraft !== this.aircraft) this.proposal = undefined
     this.aircraft = aircraft
@@ -68,7 +72,7 @@ export class Advisor {
     }
   }
 
-  /** The day has moved on, so what is shown may no longer hold. */
+  /** The day has advanced, so the displayed advice may be out of date. */
   moveOn(seq: number): void {
     const known = this.newer ?? this.proposal
     if (known !== undefined && seq > known.seq) this.#refresher.want()
@@ -82,7 +86,10 @@ export class Advisor {
     return this.proposal !== undefined && this.#isSeen && !this.isBusy && this.newer === undefined
   }
 
-  /** Takes the advice that is shown, and no other: if the policy has come to another by now, that is shown instead. */
+  /**
+   * Accepts the displayed advice and no other. If the policy's advice has changed, the new advice
+   * is offered instead.
+   */
   async accept(): Promise<Outcome> {
     const shown = this.proposal
     if (shown === undefined || !this.canAccept) return { kind: 'none' }
@@ -110,7 +117,7 @@ export class Advisor {
     })
   }
 
-  /** Decides otherwise, for a reason. */
+  /** Decides differently from the advice, with a reason. */
   async override(to: string, reason: string): Promise<Outcome> {
     const aircraft = this.aircraft
     if (aircraft === undefined || this.isBusy) return { kind: 'none' }
@@ -142,12 +149,13 @@ export class Advisor {
       else if (this.isEngaged) this.newer = fresh
       else this.#show(fresh)
     } catch (problem) {
-      // That the aircraft no longer waits is seen in the state of the day; that no answer came, in the connection.
+      // The state of the day shows that the aircraft no longer waits; the connection shows that
+      // there was no answer.
       if (!(problem instanceof ProblemError)) throw problem
     }
   }
 
-  /** The same advice with newer numbers changes in place. */
+  /** The same advice with newer numbers is updated in place. */
   #update(proposal: Proposal): void {
     this.proposal = proposal
     this.newer = undefined

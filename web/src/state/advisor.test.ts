@@ -4,7 +4,9 @@ import { ProblemError } from '../api/problem'
 import type { NewDecision, Proposal } from '../api/types'
 import { Advisor } from './advisor.svelte'
 
-/** A service that advises what it is told to, and takes decisions at the event that the day is at. */
+/**
+ * A service that gives the advice set by the test, and takes decisions at the day's current event.
+ */
 class FakeService {
   to = 'V2'
   seq = 1

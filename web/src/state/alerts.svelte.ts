@@ -1,5 +1,5 @@
-// The alerts of a live day with what was done about them: acknowledged ones stay in the list, behind the others. That is kept for the
-// life of the tab, as far as a reload.
+// The alerts of a live day with their acknowledgements: acknowledged ones stay in the list, behind
+// the others. Acknowledgements are kept in the tab's session storage, so they survive a reload.
 
 import { SvelteMap } from 'svelte/reactivity'
 import type { Alert } from '../model/alerts'
@@ -13,7 +13,7 @@ export interface ListedAlert extends Alert {
 }
 
 export class Alerts {
-  /** When the occurrence was seen first that was acknowledged. */
+  /** For each key, when the acknowledged occurrence was first observed. */
   readonly #acknowledged: SvelteMap<string, Seconds>
   readonly #occurrences = new Occurrences()
   readonly #key: string
@@ -26,7 +26,10 @@ export class Alerts {
     this.#acknowledged = new SvelteMap(entriesIn(storage.getItem(this.#key)))
   }
 
-  /** The alerts of a moment, those that are not acknowledged first. An alert that ended and comes back is a new one. */
+  /**
+   * The alerts at one time, unacknowledged ones first. An alert that ended and comes back is a new
+   * one.
+   */
   listed(alerts: readonly Alert[], time: Seconds): ListedAlert[] {
     this.#occurrences.see(
       alerts.map(({ key }) => key),
@@ -47,11 +50,14 @@ export class Alerts {
     try {
       this.storage.setItem(this.#key, JSON.stringify([...this.#acknowledged]))
     } catch {
-      // A storage that is full or forbidden only means that a reload forgets.
+      // If the storage is full or forbidden, acknowledgements are lost on a reload.
     }
   }
 
-  /** What came with an event was so from then on. Of other alerts an earlier occurrence may have been acknowledged. */
+  /**
+   * An alert from an event began with that event. For other alerts an earlier occurrence may have
+   * been acknowledged.
+   */
   #isAcknowledged({ key, matter }: Alert): boolean {
     const acknowledged = this.#acknowledged.get(key)
     if (acknowledged === undefined) return false
@@ -59,7 +65,7 @@ export class Alerts {
   }
 }
 
-/** What was kept, or nothing if something else is there. */
+/** The stored entries; none if the content is invalid. */
 function entriesIn(kept: string | null): [string, Seconds][] {
   if (kept === null) return []
   try {

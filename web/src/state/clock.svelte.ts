@@ -1,28 +1,29 @@
-// The clock of a live day, shown at every frame. It stops while the connection is away: it is not known what happens then.
+// The clock of a live day, updated every frame. It stops while the connection is lost, because
+// events in that time are unknown.
 
 import { Pace } from '../model/pace'
 import type { Seconds } from '../model/record'
 
-/** With reduced motion, pictures change once in this time instead of at every frame. */
+/** With reduced motion, pictures are updated at this interval instead of every frame. */
 const CALM_MS = 1_000
 
 export class Clock {
-  /** The time of the day to read: never before what is known to have happened. */
+  /** The time of the day as text: never before the latest known event. */
   time = $state<Seconds>(0)
-  /** The time at which aircraft are drawn: it makes up for news within a moment instead of jumping. */
+  /** The time at which aircraft are drawn: it catches up smoothly instead of jumping. */
   motion = $state<Seconds>(0)
-  /** Seconds of the day that pass in a second, about. */
+  /** Approximate seconds of the day per second. */
   speed = $state(0)
-  /** Whether a simulated day has said nothing for so long that its time evidently does not pass. */
+  /** Whether a simulated day has been silent for so long that its time evidently stands still. */
   isStill = $state(false)
-  /** Whether aircraft wait for people, which is why a simulated day says nothing. */
+  /** Whether aircraft wait for decisions, so that a simulated day is silent. */
   isAwaited = $state(false)
   readonly #pace = new Pace()
   #frame = 0
   #isHeld = false
   #shown_ms = 0
 
-  /** Takes the news that the day was at a time, `age_ms` ago. */
+  /** Adds an observation of the day's time from `age_ms` ago. */
   hear(time: Seconds, age_ms = 0): void {
     this.#pace.hear(time, performance.now() - age_ms)
     if (this.#shown_ms === 0) this.#show(performance.now())
@@ -38,13 +39,13 @@ export class Clock {
     this.isStill = false
   }
 
-  /** Says whether aircraft wait for people. */
+  /** Sets whether aircraft wait for decisions. */
   await(isAwaited: boolean): void {
     this.isAwaited = isAwaited
     this.#pace.isAwaited = isAwaited
   }
 
-  /** Holds the clock while the connection is away. */
+  /** Holds the clock while the connection is lost. */
   hold(isHeld: boolean): void {
     this.#isHeld = isHeld
   }

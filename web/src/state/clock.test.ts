@@ -25,7 +25,7 @@ it('is never before an event that has been heard of, though aircraft are drawn w
     frame(performance.now())
     if (second < 10) vi.advanceTimersByTime(1000)
   }
-  // Sooner than expected, and between two frames.
+  // Earlier than expected, and between two frames.
   vi.advanceTimersByTime(100)
   clock.hear(22_260)
   expect(clock.time).toBe(22_260)

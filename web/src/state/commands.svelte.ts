@@ -1,21 +1,24 @@
-// What can be done by key or from the palette. Views add their commands while they are shown.
+// The commands of the keyboard and the palette. Views add their commands while they are shown.
 
 import { untrack } from 'svelte'
 import { isCharacter, keyOf, Sequence } from '../model/keys'
 import { preferences } from './preferences.svelte'
 
 export interface Command {
-  /** Names the command; of two with the same, the one that was added last holds. */
+  /** Identifies the command; if two have the same id, the one added last applies. */
   id: string
-  /** What it does, in the words of a menu. */
+  /** The label in menus. */
   title: string
-  /** Under which heading the help lists it. */
+  /** The heading under which the help lists it. */
   group: string
-  /** Keys as `model/keys.ts` writes them; any of them will do. */
+  /** Keys in the format of `model/keys.ts`; any of them triggers the command. */
   keys?: string[]
-  /** Whether the palette lists it only for those who look for its name: there are hundreds like it. */
+  /**
+   * Whether the palette lists it only when the search matches its name, because there are hundreds
+   * like it.
+   */
   isByName?: boolean
-  /** Whether it can be done now; a command without is always possible. */
+  /** Whether it is currently possible; a command without this is always possible. */
   isPossible?: () => boolean
   run: () => void
 }
@@ -33,14 +36,14 @@ class Commands {
 
   /** Adds commands until the returned function is called: `$effect(() => commands.add([...]))`. */
   add(list: Command[]): () => void {
-    // An effect that adds commands must not run again because others do.
+    // An effect that adds commands must not run again when others are added.
     this.#lists = [...untrack(() => this.#lists), list]
     return () => {
       this.#lists = untrack(() => this.#lists).filter((one) => one !== list)
     }
   }
 
-  /** Does what a key means here. */
+  /** Runs the command of a key, if there is one. */
   press(event: KeyboardEvent): void {
     const key = keyOf(event)
     if (key === undefined || event.defaultPrevented || event.isComposing || isElsewhere(event, key)) return
@@ -66,7 +69,7 @@ class Commands {
 
 export const commands = new Commands()
 
-/** Whether a key belongs to what has the focus: a field that is typed in, a button that is pressed, an open dialog. */
+/** Whether the focused element handles the key: a field, a button, or an open dialog. */
 function isElsewhere(event: KeyboardEvent, key: string): boolean {
   if (document.querySelector('dialog[open]') !== null) return true
   const target = event.target

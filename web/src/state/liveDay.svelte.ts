@@ -1,5 +1,5 @@
-// A live day as the console follows it: read once, then kept up to date by the stream of its events. The service knows the
-// rules, so after events its state and outlook are asked for again, no more often than the eye needs and the service can give.
+// A live day in the console: read once, then kept up to date by its event stream. The service knows
+// the rules, so after events its state and outlook are read again, at a limited rate.
 
 import type { Service } from '../api/client'
 import { ProblemError } from '../api/problem'
@@ -23,12 +23,18 @@ import { Clock } from './clock.svelte'
 import { OwnDecisions } from './ownDecisions.svelte'
 import { Refresher } from './refresher'
 
-/** Events that are kept for the log; earlier ones stay in the service, so that a long day does not fill the memory. */
+/**
+ * The number of events kept for the log. Earlier ones remain in the service, so a long day does not
+ * fill the memory.
+ */
 export const MOST_KEPT_EVENTS = 20_000
 
-/** How soon the state is asked for after an event, and how long to wait between two askings. */
+/** How soon after an event the state is read, and the pause between two reads. */
 const STATE_PACE = { soon_ms: 60, least_ms: 500, share: 3 }
-/** An outlook is work for the service, so it is asked for more rarely, and for no more than a quarter of its time. */
+/**
+ * An outlook is expensive for the service, so it is read less often and takes at most a quarter of
+ * its time.
+ */
 const OUTLOOK_PACE = { soon_ms: 250, least_ms: 1_500, share: 4 }
 
 const SECOND_MS = 1_000
@@ -41,15 +47,15 @@ export class LiveDay {
   outlook = $state.raw<Outlook>()
   events = $state.raw<TakenEvent[]>([])
   connection = $state<Connection>('connecting')
-  /** Seconds since the service sent anything on the stream. */
+  /** Seconds since the service last sent anything on the stream. */
   silent_s = $state(0)
-  /** Why the day cannot be read or followed, if it cannot. */
+  /** Why the day cannot be read or followed; undefined if it can. */
   problem = $state.raw<ProblemError>()
-  /** Why there is no outlook, if there is none. */
+  /** Why there is no outlook; undefined if there is one. */
   outlookProblem = $state.raw<ProblemError>()
   readonly clock = new Clock()
   #scenario = $state.raw<Scenario>()
-  /** Counts the events that the reports have taken, so that what depends on them is made anew. */
+  /** Counts the events applied to the reports, so that derived values are computed again. */
   #reported = $state(0)
   #reports: Reports | undefined
   #flown: readonly LegRecord[] = []
@@ -76,7 +82,7 @@ export class LiveDay {
     return this.#scenario
   }
 
-  /** The day as it was reported and is expected; undefined until its state is known. */
+  /** The day as reported and expected; undefined until its state is known. */
   readonly #reportedRecord: DayRecord | undefined = $derived.by(() => {
     const [scenario, reports, state] = [this.#scenario, this.#reports, this.state]
     if (scenario === undefined || reports === undefined || state === undefined || this.#reported < 0)
@@ -84,15 +90,15 @@ export class LiveDay {
     return liveRecord({ scenario, reports, state, outlook: this.outlook, flown: this.#flown })
   })
 
-  /** The minute up to which nothing has happened that was not reported. */
+  /** The end of the current minute: up to here, unreported events have not happened. */
   readonly #minute: Seconds = $derived(endOfMinute(this.clock.time))
 
-  /** The day as a record, as it stands in this minute. */
+  /** The record of the day in the current minute. */
   readonly record: DayRecord | undefined = $derived(
     this.#reportedRecord && recordAt(this.#reportedRecord, this.#minute),
   )
 
-  /** Every aircraft as it stands in this minute. */
+  /** Every aircraft in the current minute. */
   readonly aircraft: readonly AircraftState[] = $derived(
     this.state === undefined || this.record === undefined ? [] : aircraftAt(this.state, this.record),
   )
@@ -103,7 +109,7 @@ export class LiveDay {
     return alertsOf({ scenario: this.#scenario, state, record, events: this.events, time: this.#minute })
   })
 
-  /** What should be looked at, alerts that are not acknowledged first. */
+  /** The alerts, unacknowledged ones first. */
   readonly alerts: readonly ListedAlert[] = $derived.by(() =>
     this.#alertList.listed(this.#alertsNow, this.#minute),
   )
@@ -113,7 +119,7 @@ export class LiveDay {
     this.#alertList.acknowledge(keys)
   }
 
-  /** What was reported, without what is only expected: what pictures of a moment show. */
+  /** The reported part of the day, without expected legs, for pictures of one time. */
   readonly happened: DayRecord | undefined = $derived.by(() => {
     const record = this.#reportedRecord
     return record === undefined
@@ -121,7 +127,7 @@ export class LiveDay {
       : { ...record, legs: record.legs.filter((leg) => !leg.is_expected) }
   })
 
-  /** Whether nothing is left to decide and every aircraft is on the ground. */
+  /** Whether there are no decisions left and every aircraft is on the ground. */
   readonly isOver: boolean = $derived.by(() => {
     const { state, end } = this
     return state !== undefined && end !== undefined && isOver(state, end)
@@ -132,13 +138,13 @@ export class LiveDay {
     return this.#scenario === undefined ? undefined : timeOf(this.#scenario.operations.end)
   }
 
-  /** Aircraft that were decided after the state that is known. */
+  /** Aircraft that were decided after the known state. */
   readonly decidedSince: ReadonlySet<string> = $derived(decidedSince(this.events, this.state?.seq ?? 0))
 
-  /** What this console decided, so that it can say so and take it back. */
+  /** The decisions taken at this console, so that it can mark them and undo them. */
   readonly ownDecisions: OwnDecisions
 
-  /** Where departures lead and landings are. */
+  /** The places of departures and landings. */
   whereabouts = new Whereabouts()
 
   /** Reads the day and follows it until it is closed. */
@@ -165,13 +171,16 @@ export class LiveDay {
     this.#outlookRefresher.stop()
   }
 
-  /** Asks for the state and the outlook now, after something that this console did itself. */
+  /** Reads the state and the outlook now, after an action at this console. */
   refresh(): void {
     this.#stateRefresher.want()
     this.#outlookRefresher.want()
   }
 
-  /** Follows the day again after it was lost for good, as when a token had been revoked. */
+  /**
+   * Follows the day again after the stream was refused, for example because a token had been
+   * revoked.
+   */
   resume(): void {
     if (this.state === undefined) void this.open()
     else {
@@ -180,34 +189,34 @@ export class LiveDay {
     }
   }
 
-  /** Reads the state now, and the outlook soon: for a console that has just decided and goes on. */
+  /** Reads the state now and the outlook soon, for a user who has just decided and continues. */
   async readNow(): Promise<void> {
     this.#outlookRefresher.want()
     await this.#readState()
   }
 
-  /** Whether something else could be decided in the place of an aircraft's latest decision. */
+  /** Whether an aircraft's latest decision can be replaced by another. */
   canBeDecidedAnew(aircraft: AircraftState): boolean {
     const { state, end, info } = this
     if (state === undefined || end === undefined || info?.archived === true) return false
     return canBeDecidedAnew(state, aircraft, end)
   }
 
-  /** Whether the decision of an aircraft by an event can be taken back, as far as is known here. */
+  /** Whether, to the console's knowledge, an aircraft's decision from an event can be undone. */
   canBeTakenBack(aircraft: string, seq: number): boolean {
     const known = this.state?.aircraft.find((one) => one.id === aircraft)
-    // What the state does not know yet was decided only now.
+    // An aircraft that is missing in the state was decided only now.
     const isPossible = known === undefined || known.needs_decision || this.canBeDecidedAnew(known)
     return isPossible && !this.isOver && canBeTakenBack(this.events, aircraft, seq)
   }
 
-  /** Takes the latest decision of an aircraft back. */
+  /** Undoes the latest decision of an aircraft. */
   async takeBack(aircraft: string): Promise<void> {
     await this.#service.report(this.id, { type: 'undone', aircraft })
     this.refresh()
   }
 
-  /** The flight of an aircraft that is under way, with the report that it waits for. */
+  /** The leg of an aircraft under way, with the report that it awaits. */
   awaitedLeg(aircraft: string): LegRecord | undefined {
     const { record } = this
     return record?.legs.find(
@@ -215,7 +224,7 @@ export class LiveDay {
     )
   }
 
-  /** An aircraft as something to be selected. */
+  /** An aircraft as a selection target. */
   targetOf(aircraft: string): Target | undefined {
     const index = this.#scenario?.aircraft.findIndex((one) => one.id === aircraft) ?? -1
     return index < 0 ? undefined : { kind: 'aircraft', aircraft: index }
@@ -258,7 +267,7 @@ export class LiveDay {
       onConnection: (connection, problem) => this.#connect(connection, problem),
       onSign: () => this.#hearSign(),
       onRewound: () => {
-        // Numbers of events mean others now.
+        // Event numbers now refer to other events.
         this.ownDecisions.forgetAfter(0)
         this.#readAll().catch((problem: unknown) => this.#fail(problem))
       },
@@ -281,7 +290,7 @@ export class LiveDay {
     if (connection === 'connected') this.#hearSign()
     this.clock.hold(connection !== 'connected')
     this.problem = connection === 'connected' ? undefined : problem
-    // A request that is refused for want of a token asks for one.
+    // A request that is refused for lack of a token makes the console ask for one.
     if (heals || problem?.status === UNAUTHORIZED) this.refresh()
   }
 
@@ -296,7 +305,7 @@ export class LiveDay {
     this.#hear(events)
   }
 
-  /** Events that were taken while the page was closed still tell how fast the day passes. */
+  /** Events from before the page was opened still show how fast the day passes. */
   #hear(events: TakenEvent[]): void {
     const now = Date.now()
     for (const { event, at_ms } of events) {
@@ -333,7 +342,7 @@ export class LiveDay {
 
   #fail(problem: unknown): void {
     if (!(problem instanceof ProblemError)) throw problem
-    // The stream says that the connection is away and asks again when it is back.
+    // The stream shows that the connection is lost and triggers a read when it is back.
     if (problem.status !== 0 || this.state === undefined) this.problem = problem
   }
 }

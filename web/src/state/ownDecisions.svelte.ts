@@ -1,10 +1,11 @@
-// What was decided at this console, by the numbers of events: without tokens the service knows no person, so only the console can
-// say "you". It is kept for the life of the tab, as far as a reload; another tab, or another person, does not have it.
+// The decisions taken at this console, by event number. Without tokens the service cannot identify
+// users, so only the console can show "you". They are kept in the tab's session storage, so they
+// survive a reload; other tabs and users do not have them.
 
 import { SvelteSet } from 'svelte/reactivity'
 
 const KEY = 'vertifleet-decided'
-/** More than a person takes back or looks for. */
+/** More decisions than a user undoes or looks for. */
 const MOST_KEPT = 2_000
 
 export class OwnDecisions {
@@ -28,7 +29,9 @@ export class OwnDecisions {
     this.#keep()
   }
 
-  /** Forgets what lies after the latest event of a day that was put back: others will have these numbers. */
+  /**
+   * Forgets numbers after the latest event of a restored day, because other events will get them.
+   */
   forgetAfter(latest: number): void {
     const gone = [...this.#numbers].filter((seq) => seq > latest)
     for (const seq of gone) this.#numbers.delete(seq)
@@ -40,12 +43,12 @@ export class OwnDecisions {
     try {
       this.storage.setItem(this.#key, JSON.stringify(latest))
     } catch {
-      // A storage that is full or forbidden only means that a reload forgets.
+      // If the storage is full or forbidden, these are lost on a reload.
     }
   }
 }
 
-/** What was kept, or nothing if something else is there. */
+/** The stored numbers; none if the content is invalid. */
 function numbersIn(kept: string | null): number[] {
   if (kept === null) return []
   try {

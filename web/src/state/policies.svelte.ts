@@ -1,4 +1,4 @@
-// The policies that the service has, read again by each view that offers them.
+// The service's policies, read again by each view that offers them.
 
 import { Reading } from './reading.svelte'
 import { session } from './session.svelte'

@@ -1,4 +1,4 @@
-// What a person prefers on this machine. A browser that keeps nothing is no reason not to work.
+// The user's preferences on this machine. The console also works in a browser without storage.
 
 export type Theme = 'system' | 'light' | 'dark'
 
@@ -38,12 +38,12 @@ class Preferences {
     this.#keep()
   }
 
-  /** Whether what is shown is dark, for pictures that draw their own colours. */
+  /** Whether the theme is dark, for pictures that draw their own colours. */
   get isDark(): boolean {
     return this.#theme === 'system' ? this.#prefersDark : this.#theme === 'dark'
   }
 
-  /** Whether keys without Ctrl do something (WCAG 2.1.4). */
+  /** Whether keys without Ctrl run commands (WCAG 2.1.4). */
   get hasSingleKeys(): boolean {
     return this.#hasSingleKeys
   }
@@ -59,7 +59,7 @@ class Preferences {
     try {
       localStorage.setItem(KEY, JSON.stringify(all))
     } catch {
-      // It holds until the page is closed.
+      // The setting lasts until the page is closed.
     }
   }
 

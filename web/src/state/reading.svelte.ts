@@ -1,11 +1,12 @@
-// What a view reads of the service as a whole, such as a list: what was read last stays when it cannot be read again, beside why.
+// A value that a view reads from the service, such as a list. If a later read fails, the last value
+// stays, together with the problem.
 
 import { refusal, type ProblemError } from '../api/problem'
 
 export class Reading<T> {
-  /** What was read last; undefined until it was. */
+  /** The last value; undefined until there is one. */
   value = $state.raw<T>()
-  /** Why it could not be read the last time. */
+  /** Why the last read failed. */
   problem = $state.raw<ProblemError>()
 
   constructor(private readonly ask: () => Promise<T>) {}
@@ -19,7 +20,10 @@ export class Reading<T> {
     }
   }
 
-  /** Reads it now and from time to time, since others change it too, until the returned function is called. */
+  /**
+   * Reads the value now and periodically, because other users change it too, until the returned
+   * function is called.
+   */
   repeat(every_ms: number): () => void {
     void this.read()
     const timer = setInterval(() => void this.read(), every_ms)

@@ -1,11 +1,12 @@
-// Asks for something again after it has changed: soon, one request at a time, and never so often that asking is all there is.
+// Repeats a request after changes: soon, one request at a time, and with pauses that limit the
+// load.
 
 export interface RefreshPace {
-  /** How long to wait after the first change: others often follow at once. */
+  /** The wait after the first change, because others often follow at once. */
   soon_ms: number
-  /** The least time between two requests. */
+  /** The minimum time between two requests. */
   least_ms: number
-  /** How many times as long as an answer took to wait before the next request. */
+  /** The pause before the next request, as a multiple of the duration of the last one. */
   share: number
 }
 
@@ -21,7 +22,7 @@ export class Refresher {
     private readonly ask: () => Promise<void>,
   ) {}
 
-  /** Says that what is known is no longer new. */
+  /** Requests a refresh, because the known value is out of date. */
   want(): void {
     this.#isWanted = true
     if (this.#timer !== undefined || this.#isAsking || this.#isStopped) return
@@ -46,7 +47,7 @@ export class Refresher {
       this.#notBefore = asked + Math.max(this.pace.least_ms, this.pace.share * took_ms)
       this.#isAsking = false
     }
-    // eslint-disable-next-line @typescript-eslint/no-unnecessary-condition -- it may have been wanted while it was asked.
+    // eslint-disable-next-line @typescript-eslint/no-unnecessary-condition -- set meanwhile.
     if (this.#isWanted) this.want()
   }
 }

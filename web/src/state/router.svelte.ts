@@ -1,4 +1,4 @@
-// Where in the console a person is: the hash of the page, as a route.
+// The current view: the hash of the page, as a route.
 
 import { hashOf, parseRoute, type DayView, type OtherView, type Route } from '../model/route'
 
@@ -13,7 +13,7 @@ class Router {
     location.hash = hashOf(route)
   }
 
-  /** Goes to a view of the day that is open, or to one that needs none. */
+  /** Opens a view of the current day, or one without a day. */
   goTo(view: DayView | OtherView): void {
     const { day } = this.route
     if (view === 'days' || view === 'networks' || view === 'studies') this.go({ view, params: {} })
@@ -21,7 +21,7 @@ class Router {
     else if (view === 'replay') this.go({ view, params: {} })
   }
 
-  /** Remembers something in the address without a step in the history; an absent value is forgotten. */
+  /** Stores parameters in the address without a step in the history; an absent value is removed. */
   remember(params: Record<string, string | undefined>): void {
     const merged = Object.entries({ ...this.route.params, ...params })
     const kept = Object.fromEntries(merged.filter((one): one is [string, string] => one[1] !== undefined))

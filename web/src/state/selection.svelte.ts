@@ -1,4 +1,5 @@
-// What is hovered and what is selected. There is one of it on a page, so that a list, the map and the timelines show the same.
+// The hovered and the selected object. A page has only one selection, so the lists, the map and the
+// timelines show the same.
 
 import { aircraftMeant, isSame, vertiportMeant, type Target } from '../model/target'
 

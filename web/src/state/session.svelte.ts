@@ -1,5 +1,5 @@
-// Who works here: the token of the session and what it permits. It is kept for the life of the tab and never put into an
-// address, where logs and histories would keep it.
+// The session's token and its permissions. The token is kept in the tab's session storage and never
+// in an address, which logs and histories would store.
 
 import { Service } from '../api/client'
 import { ProblemError } from '../api/problem'
@@ -10,9 +10,9 @@ const UNAUTHORIZED = 401
 
 class Session {
   #token = $state<string | undefined>(sessionStorage.getItem(KEY) ?? undefined)
-  /** What the service said of itself and of the token; undefined until it did. */
+  /** The service's description of itself and of the token; undefined until it is known. */
   info = $state.raw<ServiceInfo>()
-  /** Whether the service wants a token, or another one. */
+  /** Whether the service requires a token, or another one. */
   needsToken = $state(false)
   readonly service = new Service({ token: () => this.#token, fetch: (request) => this.#watched(request) })
 
@@ -28,7 +28,7 @@ class Session {
     return this.info?.role === 'admin'
   }
 
-  /** Asks the service what it is and what the user may do. */
+  /** Reads the service's description and the user's permissions. */
   async begin(): Promise<void> {
     try {
       this.info = await this.service.info()

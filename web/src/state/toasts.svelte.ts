@@ -1,4 +1,5 @@
-// What the console says about what was done: shown for a while, errors until they are closed.
+// Short messages about the user's actions. Most disappear after a while; errors stay until they are
+// closed.
 
 import { refusal } from '../api/problem'
 import { said } from '../text/problems'
@@ -11,7 +12,7 @@ export interface Toast {
   detail?: string
   hint?: string
   code?: string
-  /** What takes it back, for a while and as long as that is possible. */
+  /** Undoes the action, for a while and only while that is possible. */
   action?: { title: string; run: () => void; isPossible?: () => boolean }
 }
 
@@ -27,7 +28,9 @@ class Toasts {
     setTimeout(() => this.close(id), SHOWN_MS)
   }
 
-  /** Says what a request failed of, with its code and remedy. Anything else is an error of our own, and not hidden. */
+  /**
+   * Shows a failed request with its code and remedy. Any other error is a bug and is thrown again.
+   */
   fail(problem: unknown): void {
     const refused = refusal(problem)
     const { title, hint, code } = said(refused)
@@ -46,7 +49,8 @@ class Toasts {
 
   #add(toast: Omit<Toast, 'id'>): number {
     const id = this.#next++
-    // Of what was done only the latest is said, and no error is said twice: what is worked with stays in view.
+    // Only the latest success is shown, and no error twice, so that messages cover little of the
+    // page.
     const others = this.list.filter((one) => one.kind === 'error' && one.title !== toast.title)
     this.list = [...others, { ...toast, id }].slice(-MOST)
     return id

@@ -1,4 +1,4 @@
-// Who waits for a flight at this moment, as the service counts them, for as long as something shows it.
+// The passengers who are waiting now, as counted by the service, read while a view shows them.
 
 import type { Service } from '../api/client'
 import { ProblemError } from '../api/problem'
@@ -23,12 +23,12 @@ export class WaitingPassengers {
     this.#refresher.stop()
   }
 
-  /** The day has moved on, so others may wait. */
+  /** The day has advanced, so the waiting passengers may have changed. */
   moveOn(seq: number): void {
     if (this.#demand === undefined || seq > this.#demand.seq) this.#refresher.want()
   }
 
-  /** The pairs with passengers who wait; undefined until the service has said who does. */
+  /** The pairs with waiting passengers; undefined until the service has answered. */
   pairs({ vertiports }: Scenario): WaitingPair[] | undefined {
     const places = indexed(vertiports)
     return this.#demand?.pairs.map(({ from, to, passengers }) => ({
@@ -42,7 +42,8 @@ export class WaitingPassengers {
     try {
       this.#demand = await this.service.demand(this.day)
     } catch (problem) {
-      // What the record of the day says takes its place; that the connection is away is said elsewhere.
+      // The record of the day replaces the answer; the connection mark shows that the connection is
+      // lost.
       if (!(problem instanceof ProblemError)) throw problem
       this.#demand = undefined
     }

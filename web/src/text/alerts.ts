@@ -1,4 +1,4 @@
-// Alerts in words.
+// The texts of alerts.
 
 import type { Matter } from '../model/alerts'
 import { clockMinutes } from '../model/time'

@@ -1,4 +1,4 @@
-// Texts about a live day in English: its alerts, and what would be if things were otherwise.
+// English texts of live days: alerts and what-ifs.
 
 import { plural } from './numbers'
 

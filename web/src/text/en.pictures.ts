@@ -1,9 +1,9 @@
-// The texts of the map, the timelines and the replay, in English. They are a part of en.ts in a file of their own, since pictures
-// take many words to be understood without eyes.
+// English texts of the map, the timelines and the replay. They are part of en.ts, in a separate
+// file, because pictures need many words for screen readers.
 
 import { plural } from './numbers'
 
-/** What the keys of the map and the timelines call flights and stands. */
+/** The names of flights and stands in the keys of the map and the timelines. */
 const states = {
   full: 'full flight',
   partial: 'flight with free seats',

@@ -1,5 +1,5 @@
-// The texts of the network editor and of studies, in English. They are a part of en.ts in a file of its own, since planners read
-// many words.
+// English texts of the network editor and of studies. They are part of en.ts, in a separate file,
+// because planning needs many words.
 
 import { plural, whole } from './numbers'
 
@@ -71,7 +71,7 @@ export const editor = {
     line: (line: number) => `line ${line}`,
     show: 'Show',
     unreadable: 'The text cannot be read, so the forms show it as it was.',
-    /** An entry of a list by its place in the file. */
+    /** An entry of a list, by its position in the file. */
     entries: {
       vertiports: (number: number) => `vertiport no. ${number} of the file`,
       aircraft_types: (number: number) => `aircraft type no. ${number} of the file`,

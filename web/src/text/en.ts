@@ -1,4 +1,5 @@
-// Every text of the console in English, by where it is read. A text with something in it is a function of that.
+// All English texts of the console, ordered by where they appear. A text with parameters is a
+// function.
 
 import { alerts, whatIf } from './en.live'
 import { map, replay, timeline } from './en.pictures'

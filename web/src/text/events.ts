@@ -1,5 +1,5 @@
-// What a person reads of an event, in a sentence without its time. `place` is where a departure leads or a landing is, if the event does
-// not say so itself.
+// The sentence for an event, without its time. `place` is the destination of a departure or the
+// vertiport of a landing, if the event does not contain it.
 
 import type { Event, RouteNames } from '../api/types'
 import { clock, timeOf } from '../model/time'
@@ -43,7 +43,7 @@ export function sentence(event: Event, place?: string): string {
   }
 }
 
-/** Why it was done, where that was said. */
+/** The reason for an event, if one was given. */
 export function reasonOf(event: Event): string | undefined {
   return 'reason' in event ? (event.reason ?? undefined) : undefined
 }

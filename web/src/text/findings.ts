@@ -1,4 +1,5 @@
-// What the service says of a network, as planners say it: entries of a list are counted from one and called by what they are.
+// Rewords the service's findings about a network for planners: entries of a list are counted from
+// one and called by their kind.
 
 import { text } from './text'
 

@@ -1,5 +1,6 @@
-// What a person reads when the service refuses something. The service speaks to programs too: its messages are lower-case and its
-// hints name requests. Here they become sentences, and what was not found leads to where it could be.
+// The texts for refusals by the service. The service also serves programs: its messages are
+// lower-case and its hints name requests. Here they become sentences, and a missing object comes
+// with a link to the list of such objects.
 
 import type { ProblemError } from '../api/problem'
 import { hashOf, type OtherView } from '../model/route'
@@ -8,9 +9,9 @@ import { text } from './text'
 export interface SaidProblem {
   title: string
   hint?: string
-  /** The code to look up, where there is something to look up. */
+  /** The code to look up, if there is one. */
   code?: string
-  /** Where to go on from here. */
+  /** A link to continue from here. */
   way?: { href: string; title: string }
 }
 
@@ -38,7 +39,7 @@ export function said(problem: ProblemError): SaidProblem {
   }
 }
 
-/** Says that something is not there that an address or a choice names. */
+/** The text for a missing object that an address or a choice names. */
 export function notFound(what: Missing, id: string): SaidProblem {
   const list = lists[what]
   const { title, hint } = text.errors.notFound[what](id)
@@ -47,7 +48,10 @@ export function notFound(what: Missing, id: string): SaidProblem {
   return { title, hint, way }
 }
 
-/** `there is no day "zzz"`: what is missing and its name, if the console has words for it. */
+/**
+ * Parses `there is no day "zzz"`: the kind of the missing object and its name, if the console has a
+ * text for it.
+ */
 function missingOf(detail: string): { what: Missing; id: string } | undefined {
   const [, what, id] = /^there is no (\w+) "(.*)"$/s.exec(detail) ?? []
   return what !== undefined && id !== undefined && isKnown(what) ? { what, id } : undefined
@@ -62,7 +66,10 @@ function isForPrograms(hint: string): boolean {
   return /\b(GET|POST|PUT|DELETE) \/|Idempotency-Key|Authorization:/.test(hint)
 }
 
-/** A message as a sentence: with a capital, its quotation marks, and a full stop. A path or a member in front stays as it is written. */
+/**
+ * Makes a message a sentence, with a capital, quotation marks and a full stop. A path or a member
+ * at the start stays unchanged.
+ */
 export function sentenceOf(message: string): string {
   const quoted = message.replace(/"([^"\n]*)"/g, '“$1”')
   const begun = /^\p{Ll}+[ ,:]/u.test(quoted) ? quoted.charAt(0).toUpperCase() + quoted.slice(1) : quoted

@@ -1,4 +1,4 @@
-// The only way to what a person reads. Another language is a file with the same members as `en`.
+// The only access to user texts. Another language is a file with the same members as `en`.
 
 import { en } from './en'
 

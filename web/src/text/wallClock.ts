@@ -1,4 +1,4 @@
-// When something was done, on the clock of the reader, with the time zone of that clock: a day has another one.
+// Formats a time on the user's clock, with its time zone, because a day may have a different one.
 
 import { text } from './text'
 
@@ -12,7 +12,7 @@ const moment = new Intl.DateTimeFormat(text.language, {
   timeZoneName: 'short',
 })
 
-/** The time zone by its name in the IANA database. */
+/** The name of the user's time zone in the IANA database. */
 export const ownTimeZone = moment.resolvedOptions().timeZone
 
 /** `Nov 23, 2026, 15:04 GMT+1`. */

@@ -1,13 +1,17 @@
-// Who did something, in words that claim no more than the service knows: the person, by the name of the token, and the policy whose
-// advice was taken. Without tokens no user has a name, and an acceptance by a person looks like that of a program; only what was done at
-// this console is known to be the reader's own.
+// Who took an action: the person, by the name of the token, and the policy whose advice was
+// accepted. The text claims no more than the service knows. Without tokens users have no names, and
+// a person's acceptance looks like a program's. Only actions at this console are known to be the
+// user's.
 
 import { text } from './text'
 
 export interface Doing {
   /** The name of the token; empty without tokens. */
   actor: string
-  /** The policy whose advice was taken; absent where a person chose, and for what is no decision. */
+  /**
+   * The policy whose advice was accepted; absent if a person chose, or if the action is not a
+   * decision.
+   */
   policy?: string | null | undefined
   /** Whether it was done at this console. */
   isOwn?: boolean
@@ -20,12 +24,12 @@ export function whoDid({ actor, policy, isOwn = false }: Doing): string {
   return policy == null ? person : `${person} · ${policy}`
 }
 
-/** The same of a decision: where no policy advised it, a person chose. */
+/** The same for a decision: if no policy advised it, a person chose. */
 export function whoDecided(doing: Doing): string {
   return whoDid(doing) || text.decided.person
 }
 
-/** Why no name is given, if that is so. */
+/** Why no name is given, if there is none. */
 export function whyNoName({ actor, isOwn = false }: Doing): string | undefined {
   return actor === '' && !isOwn ? text.decided.noNameHint : undefined
 }

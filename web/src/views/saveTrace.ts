@@ -1,4 +1,4 @@
-// The trace of a day as a file, from wherever it is offered.
+// Saves the trace of a day as a file.
 
 import { download } from '../parts/download'
 import type { LiveDay } from '../state/liveDay.svelte'

@@ -1,5 +1,5 @@
-// What a day of the edited network would earn, and what the network that it came from earns on days of the same seeds. It outlives the
-// view as the network does.
+// The profit of a day of the edited network, and of the network it was made from on days of the
+// same seeds. It outlives the view, like the network.
 
 import { untrack } from 'svelte'
 import { refusal, type ProblemError } from '../../api/problem'
@@ -12,7 +12,7 @@ import type { NetworkText } from './editor.svelte'
 const SEED = 1
 const NOT_FOUND = 404
 
-/** What is asked for: days of the same seeds, by one policy. */
+/** A request: days of the same seeds, by one policy. */
 interface Asked {
   policy: string
   days: number
@@ -46,7 +46,7 @@ class Played {
     return this.study?.result?.policies[0]
   }
 
-  /** Whether it is a result of these days, which can be compared one by one. */
+  /** Whether the result is for these days, so that it can be compared day by day. */
   isResultOf({ policy, days }: Asked): boolean {
     return this.result !== undefined && this.asked.policy === policy && this.asked.days === days
   }
@@ -55,7 +55,10 @@ class Played {
 class Earning {
   /** The edited network. */
   now = $state.raw<Played>()
-  /** What it is compared with: the network that it came from or, for a new one, itself before the latest change. */
+  /**
+   * The comparison: the network it was made from or, for a new one, its version before the latest
+   * change.
+   */
   before = $state.raw<Played>()
   problem = $state.raw<ProblemError>()
   isAsking = $state(false)
@@ -70,7 +73,7 @@ class Earning {
     this.problem = undefined
   }
 
-  /** Plays the edited network, and then the one that it came from unless its result is there already. */
+  /** Plays the edited network, then the one it was made from unless its result is already known. */
   async play(network: NetworkText, origin: NetworkText | undefined, asked: Asked): Promise<void> {
     const former = [this.now, this.before].filter((one) => one !== undefined)
     const known = former.filter((one) => one.isResultOf(asked) && one.network.toml !== network.toml)
@@ -88,16 +91,16 @@ class Earning {
     }
   }
 
-  /** Follows what plays until the returned function is called. */
+  /** Follows running studies until the returned function is called. */
   follow(): () => void {
     const played = [this.now, this.before].filter((one) => one !== undefined)
-    // An answer must not begin all of this again.
+    // An answer must not start this effect again.
     const playing = untrack(() => played.filter((one) => one.isPlaying))
     const stops = playing.map((one) => this.#followOne(one))
     return () => stops.forEach((stop) => stop())
   }
 
-  /** Ends what plays; what has been found out stays. */
+  /** Stops running studies; finished results stay. */
   async stop(): Promise<void> {
     const ended = [this.now, this.before].filter((one) => one?.isPlaying === true)
     if (this.now?.isPlaying === true) this.now = undefined

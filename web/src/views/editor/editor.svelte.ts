@@ -1,5 +1,5 @@
-// The network that is being edited: its text, and what the service says of it. It outlives the view, so that a look at a day loses
-// nothing, and the tab keeps it until it is closed.
+// The edited network: its text, and the service's findings. It outlives the view, so the user can
+// look at a day meanwhile, and the tab stores it until it is closed.
 
 import { ProblemError } from '../../api/problem'
 import type { NetworkInfo } from '../../api/types'
@@ -12,15 +12,15 @@ import { TomlError, TomlFile, type Path } from '../../model/network/toml'
 import { session } from '../../state/session.svelte'
 import { toasts } from '../../state/toasts.svelte'
 
-/** A pause in typing after which the service is asked. */
+/** The pause in typing after which the service checks the text. */
 const PAUSE_MS = 350
 const KEY = 'vertifleet-network'
-/** Larger texts are not kept for a tab that is loaded again. */
+/** Larger texts are not stored in the tab. */
 const MOST_KEPT = 1_000_000
 
 export type Tab = 'places' | 'fleet' | 'tariffs' | 'demand' | 'days' | 'text'
 
-/** Which part of the forms a member is edited in, by its first step. */
+/** The tab of the forms for a member, by the first step of its path. */
 const tabOf: Readonly<Record<string, Tab>> = {
   vertiports: 'places',
   aircraft_types: 'fleet',
@@ -35,9 +35,9 @@ const tabOf: Readonly<Record<string, Tab>> = {
 /** A network to edit. */
 export interface Opened {
   toml: string
-  /** Its name in the service; empty if it is not there. */
+  /** Its name in the service; empty if it is not stored there. */
   source: string
-  /** Whether the service has it because it was saved, rather than shipped with it. */
+  /** Whether it was saved in the service by users, rather than shipped with the program. */
   isOwn: boolean
 }
 
@@ -57,28 +57,31 @@ interface Kept {
 
 class Editor {
   #history = $state.raw<History>()
-  /** The text as it was read or saved last. */
+  /** The text as last read or saved. */
   #saved = $state('')
   #first = $state('')
-  /** The network of the service that it was read from or saved as; empty if it is not there. */
+  /** The network of the service that it was read from or saved as; empty if there is none. */
   source = $state('')
   isOwn = $state(false)
-  /** The saved network that it came from, and that its changes are measured against; a new one has none until it is saved. */
+  /**
+   * The saved network it was made from, with which its changes are compared; a new one has none
+   * until it is saved.
+   */
   origin = $state.raw<NetworkText>()
   tab = $state<Tab>('places')
-  /** Whether the text stands beside the forms, or takes a tab of its own where there is no room. */
+  /** Whether the text is next to the forms, or in a separate tab if there is no room. */
   showsText = $state(true)
   isNarrow = $state(false)
-  /** Counts the networks that were opened, so that pictures know when to begin anew. */
+  /** Counts the opened networks, so that pictures can reset. */
   opened = $state(0)
-  /** The vertiport that is looked at, on the map and in its form. */
+  /** The selected vertiport, on the map and in its form. */
   vertiport = $state<number>()
   info = $state.raw<NetworkInfo>()
   #said = $state.raw<Finding[]>([])
   isChecking = $state(false)
-  /** Why the service could not be asked. */
+  /** Why the request to the service failed. */
   problem = $state.raw<ProblemError>()
-  /** The member that is to be shown in the text. */
+  /** The member to show in the text. */
   shown = $state.raw<{ path: Path }>()
   #timer: ReturnType<typeof setTimeout> | undefined
   #asked = 0
@@ -103,7 +106,7 @@ class Editor {
     return this.#history?.text ?? ''
   }
 
-  /** The text as a file, or why it is none. */
+  /** The parsed text, or its parse error. */
   readonly read: { file?: TomlFile; error?: TomlError } = $derived.by(() => {
     try {
       return { file: new TomlFile(this.text) }
@@ -113,7 +116,9 @@ class Editor {
     }
   })
 
-  /** The file as it could last be read, which forms show while a person types something that is no TOML yet. */
+  /**
+   * The last readable version of the file, which the forms show while the text is not valid TOML.
+   */
   readonly file: TomlFile = $derived.by(() => {
     const { file } = this.read
     if (file !== undefined) this.#lastFile = file
@@ -153,7 +158,7 @@ class Editor {
     return this.#history?.canRedo === true
   }
 
-  /** Begins to edit a network. */
+  /** Opens a network for editing. */
   open({ toml, source, isOwn }: Opened): void {
     this.#history = History.of(toml)
     this.#first = toml
@@ -169,13 +174,13 @@ class Editor {
     this.#changed(0)
   }
 
-  /** The whole text takes the place of the former one. */
+  /** Replaces the whole text. */
   type(text: string, key = 'text'): void {
     this.#history = this.#history?.then(text, key, Date.now())
     this.#changed()
   }
 
-  /** Changes the file; `key` makes one step of changes that follow each other. */
+  /** Changes the file; consecutive changes with the same `key` are one undo step. */
   change(splices: (file: TomlFile) => Splice[], key = ''): void {
     const { file } = this.read
     if (file !== undefined) this.type(apply(file.text, splices(file)), key)
@@ -186,7 +191,7 @@ class Editor {
     this.shown = { path }
   }
 
-  /** Sets a text, or takes the member out where it is empty. */
+  /** Sets a text, or removes the member if it is empty. */
   setOrRemove(path: Path, value: string): void {
     if (value !== '') this.set(path, value)
     else this.change((file) => remove(file, path))
@@ -219,7 +224,7 @@ class Editor {
     this.shown = { path }
   }
 
-  /** Shows a member in the text, which comes forth if it is hidden. */
+  /** Shows a member in the text, which is opened if it is hidden. */
   reveal(path: Path): void {
     this.showsText = true
     if (this.isNarrow) this.tab = 'text'
@@ -233,7 +238,7 @@ class Editor {
     return this.file.pathAt(begin)
   }
 
-  /** Asks the service about the text at once. */
+  /** Checks the text with the service at once. */
   async check(): Promise<void> {
     clearTimeout(this.#timer)
     const { file } = this.read
@@ -255,7 +260,7 @@ class Editor {
     if (asked === this.#asked) this.isChecking = false
   }
 
-  /** Keeps the network in the service under its name. */
+  /** Saves the network in the service under its name. */
   async save(): Promise<NetworkInfo | undefined> {
     const { text } = this
     try {
@@ -263,7 +268,7 @@ class Editor {
       this.#saved = text
       this.source = info.name
       this.isOwn = true
-      // A copy under another name still came from the network that it was copied from.
+      // A copy under another name keeps the origin of the original.
       if (this.origin === undefined || this.origin.name === info.name)
         this.origin = { name: info.name, toml: text }
       this.#keep()
@@ -274,7 +279,7 @@ class Editor {
     }
   }
 
-  /** Removes the network from the service. Its text stays here, and is not saved any more. */
+  /** Deletes the network from the service. Its text stays here, unsaved. */
   async remove(): Promise<boolean> {
     try {
       await session.service.forgetNetwork(this.source)
@@ -291,7 +296,7 @@ class Editor {
 
   #refused(cause: unknown, file: TomlFile): void {
     if (!(cause instanceof ProblemError)) throw cause
-    // Without permission or an answer, nothing is marked wrong in the text.
+    // Without permission or an answer, the text itself is not marked as wrong.
     const isAboutTheText = cause.status === 400 || cause.status === 422
     this.problem = isAboutTheText ? undefined : cause
     if (isAboutTheText) this.#said = [findingOf(cause, file)]
@@ -311,12 +316,12 @@ class Editor {
       if (kept.text.length <= MOST_KEPT) sessionStorage.setItem(KEY, JSON.stringify(kept))
       else sessionStorage.removeItem(KEY)
     } catch {
-      // It is kept until the page is closed.
+      // The network is kept until the page is closed.
     }
   }
 }
 
-/** The values of a text; none if it is no TOML. */
+/** The values of a text; undefined if it is not valid TOML. */
 function valueOf(text: string): unknown {
   try {
     return new TomlFile(text).value

@@ -1,4 +1,5 @@
-// What the input of a field of the file has to carry, whatever it takes: it is found by its path and described by what stands around it.
+// The attributes of every input for a member of the file: it is found by its path and described by
+// its hint and findings.
 
 export interface InputAttributes {
   id: string

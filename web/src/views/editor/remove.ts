@@ -1,11 +1,11 @@
-// Vertiports are removed from the map and from the table, with the same words and the same way back.
+// Removes a vertiport on behalf of the map or the table, with the same message and undo.
 
 import { removeVertiport } from '../../model/network/places'
 import { toasts } from '../../state/toasts.svelte'
 import { text } from '../../text/text'
 import { editor } from './editor.svelte'
 
-/** Removes a vertiport with all that refers to it, and gives what was said about it. */
+/** Removes a vertiport with all references to it, and returns the message. */
 export function removeVertiportAt(index: number): string {
   const said = text.editor.map.removed(editor.draft.vertiports[index]?.id ?? '')
   editor.change((file) => removeVertiport(file, index))

@@ -1,18 +1,21 @@
-// Follows a study until it has ended. The service has no stream of studies: they last for minutes, and few people look.
+// Follows a study until it has ended. It polls, because the service has no stream of studies: they
+// last for minutes and have few viewers.
 
 import { ProblemError } from '../../api/problem'
 import type { StudyInfo } from '../../api/types'
 import { session } from '../../state/session.svelte'
 
 const LOOK_MS = 700
-/** While the service does not answer. */
+/** The interval while the service does not answer. */
 const PATIENCE_MS = 3_000
 
 export function hasEnded({ state }: StudyInfo): boolean {
   return state === 'finished' || state === 'failed'
 }
 
-/** Tells what a study says until it has ended or is gone; the returned function stops that. */
+/**
+ * Passes on each state of a study until it has ended or is deleted; the returned function stops it.
+ */
 export function follow(
   study: string,
   tell: (info: StudyInfo) => void,

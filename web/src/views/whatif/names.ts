@@ -1,4 +1,4 @@
-// Changes in words.
+// The texts of changes.
 
 import type { Change } from '../../model/whatif'
 import { sentence } from '../../text/events'
