@@ -1,4 +1,4 @@
-// What eslint holds the sources to. Formatting is prettier's alone.
+// The rules that eslint checks. Prettier alone handles formatting.
 import js from '@eslint/js'
 import prettier from 'eslint-config-prettier'
 import svelte from 'eslint-plugin-svelte'
@@ -19,11 +19,12 @@ export default ts.config(
       parserOptions: { projectService: true, extraFileExtensions: ['.svelte'] },
     },
     rules: {
-      // TypeScript knows what is defined.
+      // TypeScript checks this.
       'no-undef': 'off',
       '@typescript-eslint/restrict-template-expressions': ['error', { allowNumber: true }],
       '@typescript-eslint/no-confusing-void-expression': ['error', { ignoreArrowShorthand: true }],
-      // Inline styles are forbidden by the content security policy; `style:` directives are not inline styles.
+      // The content security policy forbids inline styles. `style:` directives are not inline
+      // styles.
       'no-restricted-syntax': [
         'error',
         { selector: "SvelteAttribute[key.name='style']", message: 'Use a class or a style: directive.' },
@@ -31,7 +32,7 @@ export default ts.config(
       'svelte/no-at-html-tags': 'error',
       // Routes are hashes of one page, so there is no base path to resolve.
       'svelte/no-navigation-without-resolve': 'off',
-      // What a function is given and does not need begins with an underscore.
+      // The name of an unused parameter begins with an underscore.
       '@typescript-eslint/no-unused-vars': ['error', { argsIgnorePattern: '^_' }],
       eqeqeq: ['error', 'always', { null: 'ignore' }],
     },

@@ -1,12 +1,16 @@
-// What those want to be said whose work is in what is built: licences ask for their notices in every copy. The console carries them as
-// a file that its page names, the replay page carries them in itself. A licence that was not reviewed ends the build.
+// Collects the licence notices of the packages in a bundle, because licences require them in every
+// copy. The console links a file with the notices, and the replay page contains them. A licence
+// that was not reviewed fails the build.
 
 import { createHash } from 'node:crypto'
 import { readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import type { Plugin, Rolldown } from 'vite'
 
-/** Licences that permit to ship what is built under MIT or Apache-2.0, as long as they are named. */
+/**
+ * Licences that allow distribution under MIT or Apache-2.0, provided that their notices are
+ * included.
+ */
 const PERMITTED = ['0BSD', 'Apache-2.0', 'BSD-2-Clause', 'BSD-3-Clause', 'ISC', 'MIT']
 const BASEMAP = `The coasts, lakes and borders of the map are those of Natural Earth (https://www.naturalearthdata.com), which is in the
 public domain.`
@@ -18,7 +22,7 @@ interface Package {
   author?: string | { name: string }
 }
 
-/** Writes the notices into a file beside the page, which the page names. */
+/** Writes the notices into a file next to the page and links it from the page. */
 export function licences(): Plugin {
   return {
     name: 'licences',
@@ -36,7 +40,10 @@ export function licences(): Plugin {
   }
 }
 
-/** The notices of all packages of which there is something in a bundle, and of others that went into it by another way. */
+/**
+ * The notices of all packages with a module in a bundle, and of packages that were included in
+ * other ways.
+ */
 export function noticesOf(bundle: Rolldown.OutputBundle, others: readonly string[] = []): string {
   const modules = Object.values(bundle).flatMap((file) => (file.type === 'chunk' ? file.moduleIds : []))
   const folders = new Set([

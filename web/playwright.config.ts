@@ -1,13 +1,15 @@
-// Tests of the console against the real program: VERTIFLEET_PROGRAM, or the one that `cargo build` made. They run in the pinned
-// Chromium of `browsers/`, or in VERTIFLEET_CHROMIUM. With VERTIFLEET_PREVIEW=dist the console comes from that folder rather than
-// from within the program, which then need not be built again after every change of the console.
+// Tests of the console against the real program: VERTIFLEET_PROGRAM, or the one that `cargo build`
+// made. They run in the pinned Chromium of `browsers/`, or in VERTIFLEET_CHROMIUM.
+//
+// With VERTIFLEET_PREVIEW=dist the console is served from that folder instead of the program. The
+// program then needs no rebuild after a change of the console.
 
 import { defineConfig } from '@playwright/test'
 import { chromium } from './tests/support/browsers'
 
 export default defineConfig({
   testDir: 'tests',
-  // Tests wait for states and not for times, so two may share the cores of a small machine.
+  // Tests wait for states, not for times, so two can share the cores of a small machine.
   workers: 2,
   timeout: 120_000,
   expect: { timeout: 20_000 },
@@ -15,11 +17,11 @@ export default defineConfig({
   outputDir: 'test-results',
   use: {
     viewport: { width: 1280, height: 800 },
-    // Times of the computer are told with their zone.
+    // Wall-clock times are displayed with their time zone.
     timezoneId: 'UTC',
     launchOptions: {
       executablePath: chromium,
-      // Software drawing is many times faster without an emulated graphics processor.
+      // Software rendering is many times faster without an emulated graphics processor.
       args: ['--no-sandbox', '--disable-gpu'],
     },
     screenshot: 'only-on-failure',

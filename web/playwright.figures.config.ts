@@ -1,5 +1,6 @@
-// What is measured of the console and what is made of it for the book: neither is a test, so neither runs with the tests.
-// `npm run figures` prints the figures of docs/src/benchmarks.md; scripts/pictures writes the pictures of the book.
+// Measurements and pictures of the console for the book. They are not tests, so they do not run
+// with the tests. `npm run figures` prints the figures of docs/src/benchmarks.md; scripts/pictures
+// writes the pictures of the book.
 
 import { defineConfig } from '@playwright/test'
 import tests from './playwright.config.ts'

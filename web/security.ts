@@ -1,5 +1,5 @@
-// The content security policy under which the console runs. crates/serve/src/console.rs sends the same one, and the tests of
-// the console see that nothing offends against it.
+// The console's content security policy. crates/serve/src/console.rs sends the same one, and the
+// console's tests check that nothing violates it.
 
 export const contentSecurityPolicy = [
   "default-src 'none'",

@@ -1,11 +1,11 @@
-// Svelte's settings, which Vite, svelte-check and eslint share.
+// Svelte's settings, shared by Vite, svelte-check and eslint.
 import { vitePreprocess } from '@sveltejs/vite-plugin-svelte'
 
 export default {
   preprocess: vitePreprocess(),
   compilerOptions: {
     runes: true,
-    // Styles go into files of their own: the content security policy permits none in the page.
+    // Styles are in separate files, because the content security policy forbids them in the page.
     css: 'external',
   },
 }

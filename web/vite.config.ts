@@ -1,5 +1,6 @@
-// Builds the console: index.html and files whose names carry a hash of their content, so that the same sources give the
-// same bytes. Development and tests reach the service through a proxy at VERTIFLEET_URL.
+// Builds the console: index.html, and files with a hash of their content in their names, so that
+// the same sources give the same bytes. Development and tests reach the service through a proxy at
+// VERTIFLEET_URL.
 
 import { svelte } from '@sveltejs/vite-plugin-svelte'
 import { defineConfig, type ProxyOptions } from 'vite'
@@ -14,9 +15,9 @@ const proxy: Record<string, ProxyOptions> = {
     changeOrigin: true,
     configure: (proxy) =>
       proxy.on('proxyRes', (from, _request, response) => {
-        // A stream that has nothing to say yet has been answered all the same: its head must not wait for its first event.
+        // The headers of a stream must not wait for its first event.
         setImmediate(() => response.flushHeaders())
-        // The end of a service that was killed is the end of its streams.
+        // If the service was killed, its streams end too.
         from.on('close', () => {
           if (!from.complete) response.destroy()
         })
@@ -30,7 +31,7 @@ export default defineConfig({
   build: {
     target: 'es2022',
     outDir: 'dist',
-    // Nothing becomes a data: address in the page, since the content security policy permits none.
+    // No file is inlined as a data: address, because the content security policy forbids them.
     assetsInlineLimit: 0,
     modulePreload: { polyfill: false },
     reportCompressedSize: false,

@@ -1,12 +1,15 @@
-// Builds dist/replay.html: one file with everything in it, which reports copy and fill with their days. It opens from a disk
-// without a server, so nothing may be left outside of it.
+// Builds dist/replay.html: one file with everything in it, which reports copy and fill with their
+// days. It opens from disk without a server, so it must not need other files.
 
 import { svelte } from '@sveltejs/vite-plugin-svelte'
 import { defineConfig, type Plugin } from 'vite'
 import { noBasemap } from './basemap/plugin.ts'
 import { noticesOf } from './licences.ts'
 
-/** Puts scripts and styles into the page. A module script runs after the page is read, wherever it stands. */
+/**
+ * Inlines scripts and styles into the page. A module script runs after the page is parsed,
+ * regardless of its position.
+ */
 function inline(): Plugin {
   return {
     name: 'inline',
@@ -22,7 +25,7 @@ function inline(): Plugin {
           file.type === 'chunk'
             ? withScript(html, name, file.code)
             : withStyle(html, name, String(file.source))
-        // eslint-disable-next-line @typescript-eslint/no-dynamic-delete -- the bundler is told by the names that are left.
+        // eslint-disable-next-line @typescript-eslint/no-dynamic-delete -- it removes the file.
         delete bundle[name]
       }
       if (/(?:src|href)="\.?\//.test(html)) throw new Error('replay.html still asks for other files')
@@ -39,7 +42,7 @@ function withScript(html: string, name: string, code: string): string {
   )
 }
 
-/** The end of a script's element must not stand in its text. */
+/** The text of a script must not contain its closing tag. */
 function ended(text: string): string {
   return text.replaceAll('</script', '<\\/script')
 }

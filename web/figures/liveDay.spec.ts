@@ -1,4 +1,5 @@
-// Makes src/model/fixtures/live-day.json: what the real service answers about a small day on which most things happen once.
+// Makes src/model/fixtures/live-day.json: the real service's answers about a small day that covers
+// most events once.
 //
 //     npx playwright test --config playwright.figures.config.ts figures/liveDay.spec.ts
 
@@ -22,7 +23,8 @@ test('a live day', async ({ program }) => {
     aircraft: { A01: 'North', A02: 'North', A03: 'East', A04: 'East', A05: 'South' },
   })
 
-  // As planned but for a late departure; a decision that a user took, one that was undone, one that is a hold.
+  // As planned except for one late departure, one decision by a user, one that was undone, and one
+  // hold.
   await fleet.decide('A01', { to: 'East' })
   await fleet.report({ type: 'departed', aircraft: 'A01', time: '06:00:00' })
   await fleet.decide('A02', { to: 'South', reason: 'the crew lives there' })

@@ -1,4 +1,5 @@
-// The pictures of the console in the README and the book, and a short recording: scripts/pictures writes them anew.
+// Takes the pictures of the console in the README and the book, and a short recording.
+// scripts/pictures runs it.
 
 import { readFileSync, writeFileSync } from 'node:fs'
 import type { Page } from '@playwright/test'
@@ -64,7 +65,7 @@ test('recording', async ({ page, program }) => {
   writeFileSync(`${images}/console.gif`, gif)
 })
 
-/** Takes pictures while a user accepts what is recommended, about a second after it came up. */
+/** Takes pictures while a user accepts a recommendation, about a second after it appeared. */
 async function record(page: Page): Promise<Buffer[]> {
   const frames: Buffer[] = []
   let isRead = 0
@@ -92,7 +93,10 @@ interface Gifenc {
   applyPalette: (pixels: Uint8ClampedArray, palette: number[][]) => Uint8Array
 }
 
-/** Writes pictures as a GIF: one palette for all, and of each only what has changed. It is done where pictures can be read. */
+/**
+ * Writes pictures as a GIF with one palette for all, storing only the changes of each frame. It
+ * runs in the page, which can read pictures.
+ */
 async function encode(page: Page, frames: Buffer[]): Promise<Buffer> {
   await page.goto('about:blank')
   const source = readFileSync('node_modules/gifenc/dist/gifenc.esm.js', 'utf8')

@@ -1,4 +1,4 @@
-// The picture of README: the report that `make demo` writes.
+// The picture in the README: the report that `make demo` writes.
 
 import { pathToFileURL } from 'node:url'
 import { expect, test } from '@playwright/test'

@@ -1,4 +1,5 @@
-// serve --basemap: a base map of the operator's own from another server, under the content security policy of the program.
+// serve --basemap: a custom base map from another server, under the program's content security
+// policy.
 
 import { createServer, type Server } from 'node:http'
 import type { AddressInfo } from 'node:net'
@@ -8,16 +9,16 @@ import { worldWithWaterWestOf } from './support/pmtiles'
 import { Program } from './support/program'
 import { expect, test as base } from './support/test'
 
-/** Within the network of New York, so that its map shows both sides. */
+/** Within the network of New York, so that its map shows both land and water. */
 const SHORE = -73.8
 
 interface Fixtures {
-  /** Where the files of the base map are. */
+  /** The address of the base map's files. */
   tiles: string
 }
 
 const test = base.extend<Fixtures>({
-  // eslint-disable-next-line no-empty-pattern -- Playwright reads the names of the fixtures that are needed.
+  // eslint-disable-next-line no-empty-pattern -- Playwright requires a pattern.
   tiles: async ({}, use) => {
     const server = tileServer()
     await new Promise<void>((listens) => server.listen(0, '127.0.0.1', listens))
@@ -28,7 +29,7 @@ const test = base.extend<Fixtures>({
 
 test.use({ launchOptions: withWebGL })
 
-/** A server of files as there are many: other origins may read, whole or in parts. */
+/** A typical file server: other origins may read files, whole or in ranges. */
 function tileServer(): Server {
   const file = worldWithWaterWestOf(SHORE)
   const style = {

@@ -1,5 +1,5 @@
-// What has to work in every browser that is supported: a report opens from a disk and its replay keeps its moment; the console opens,
-// follows the day, and decides.
+// The essentials in every supported browser: a report opens from disk and its replay keeps its
+// time; the console opens, follows the day, and decides.
 
 import { pathToFileURL } from 'node:url'
 import type { Browser, Page } from 'puppeteer-core'
@@ -9,7 +9,7 @@ import { expect, test } from './support/test'
 
 const PATIENCE = { timeout: 20_000 }
 
-/** A page that remembers what went wrong in it. */
+/** A page that records its errors. */
 async function newPage(browser: Browser): Promise<{ page: Page; wrongs: string[] }> {
   const page = await browser.newPage()
   await page.setViewport({ width: 1280, height: 800 })
@@ -69,7 +69,7 @@ for (const [name, launch] of Object.entries(others)) {
       await expect.poll(() => fleet.decisions(), PATIENCE).toBe(1)
       await expect.poll(words, PATIENCE).toMatch(/A01 (flies to|holds at) /)
 
-      // What others report comes by the stream.
+      // Reports of other users arrive by the stream.
       await fleet.report({ type: 'departed', aircraft: 'A01', time: '06:00:00' })
       await expect.poll(summary, PATIENCE).toContain('1 in the air')
       await fleet.decide('A02', { to: 'North', reason: 'a test' })

@@ -1,4 +1,4 @@
-// The service goes away and comes back; two people work on one day; a token is asked for.
+// The service stops and comes back; two users work on one day; a token is requested.
 
 import { expect, open, panel, test } from './support/test'
 
@@ -53,7 +53,8 @@ test('two consoles on one day see each other', async ({ page, context, program, 
   await page.waitForTimeout(400)
   await page.keyboard.press('a')
   await expect(mine.getByRole('heading', { name: /^A02/ })).toBeVisible()
-  // The other console has its pointer on the decision that is no more: it says so, and stays where it is.
+  // The other console's pointer is on the decision that is gone: the panel shows this and does not
+  // move.
   await expect(theirs.getByText(/^A01 was sent to/)).toBeVisible()
   await expect(theirs.getByRole('button', { name: 'Accept' })).toBeDisabled()
   await theirs.getByRole('button', { name: 'Next' }).click()

@@ -1,4 +1,4 @@
-// A dispatcher decides in the console: accepts, overrides, takes back.
+// A dispatcher decides in the console: accepts, overrides, undoes.
 
 import { dollars } from '../src/model/money'
 import { disturbedNetwork, Fleet } from './support/fleet'
@@ -14,13 +14,13 @@ test('an acceptance is the decision of the policy', async ({ page, context, prog
   const [decided] = await fleet.events()
   expect(decided?.event).toMatchObject({ type: 'decided', aircraft: 'A01', policy: 'prices' })
 
-  // Without tokens the service knows no person: this console knows what it did itself, and nothing more of others.
+  // Without tokens the service cannot identify users. This console marks its own decisions only.
   await fleet.decide('A02')
   const lately = page.getByRole('region', { name: 'Decided lately' }).getByRole('listitem')
   await expect(lately.filter({ hasText: 'A01' })).toContainText('you · prices')
   await expect(lately.filter({ hasText: 'A02' })).toContainText('as prices advised')
 
-  // It still knows after a reload, and can take it back; a console in another tab does not.
+  // It still does after a reload, and can undo them; a console in another tab cannot.
   await page.reload()
   await expect(lately.filter({ hasText: 'A01' })).toContainText('you · prices')
   await expect(lately.filter({ hasText: 'A02' })).toContainText('as prices advised')
@@ -92,9 +92,10 @@ test('a whole disturbed day that vertifleet operate reports is dispatched by acc
       await page.waitForTimeout(20)
       continue
     }
-    // A key is ignored while advice is too new to have been read, so a person may have to press it again. On a slow machine the
-    // second press may then be for the next aircraft. If the advice changed between the press and the decision, the newer advice
-    // waits until it is asked for.
+    // A key is ignored while advice is too new to have been read, so a user may have to press it
+    // again. On a slow machine the second press may then be for the next aircraft. If the advice
+    // changed between the press and the decision, the newer advice waits until the user asks for
+    // it.
     await expect(async () => {
       if ((await fleet.decisions()) > before) return
       if (await newer.isVisible()) await page.keyboard.press('r')
@@ -155,7 +156,7 @@ test('a decision is taken back as long as the aircraft has not departed', async 
   expect((await fleet.events()).map((one) => one.event.type)).toEqual(['decided', 'undone'])
 
   await expect(page.getByRole('region', { name: 'Needs a decision' }).locator('.badge')).toHaveText('6')
-  // It leads back to the aircraft.
+  // The panel returns to the aircraft.
   await expect(panel(page).getByRole('heading', { name: /^A01/ })).toBeVisible()
   await page.waitForTimeout(400)
   await page.keyboard.press('a')

@@ -1,10 +1,11 @@
-// What a day is compared with: in a what-if the other rest of it, in the replay of a live day the plan of a policy.
+// Comparisons of a day: a what-if with the day as it is, and the replay of a live day with a
+// policy's plan.
 
 import type { Page } from '@playwright/test'
 import { fixture } from './support/pictures'
 import { expect, expectAccessible, open, test } from './support/test'
 
-/** Compares a day with a closure of South. */
+/** Compares the day with and without a closure of South. */
 async function closeSouth(page: Page): Promise<void> {
   await page.getByRole('combobox', { name: 'From' }).selectOption('South')
   await page.getByRole('textbox', { name: /Until/ }).fill('08:00')

@@ -1,5 +1,5 @@
-// Holds dist/, which is in the tree and in the program, to its sources: builds the console into a temporary folder and compares all
-// files byte for byte.
+// Checks that dist/, which is in the repository and in the program, matches its sources. It builds
+// the console into a temporary folder and compares all files byte for byte.
 
 import { execFileSync } from 'node:child_process'
 import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync } from 'node:fs'
@@ -27,14 +27,14 @@ try {
   rmSync(built, { recursive: true, force: true })
 }
 
-/** All files of a folder, as paths within it. */
+/** All files of a folder, as relative paths. */
 function filesOf(folder) {
   return readdirSync(folder, { recursive: true })
     .filter((path) => statSync(join(folder, path)).isFile())
     .sort()
 }
 
-/** What differs between the files that are kept and those that were built. */
+/** The differences between the stored files and the built ones. */
 function compare(before, now) {
   const isSame = (path) => readFileSync(join(kept, path)).equals(readFileSync(join(built, path)))
   return [

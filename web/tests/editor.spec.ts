@@ -1,5 +1,5 @@
-// The network editor against the real program: what forms, the map and the text do to each other, what the service says of it, and
-// what a day of it would earn.
+// The network editor against the real program: how forms, map and text affect each other, the
+// service's findings, and the profit of a day.
 
 import type { Page } from '@playwright/test'
 import type { NetworkInfo } from '../src/api/types'

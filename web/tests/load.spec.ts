@@ -1,4 +1,5 @@
-// What a browser has to load before a dispatcher can work: kept small, so that the console is there at once on a poor connection.
+// The download before a dispatcher can work: kept small, so that the console loads fast on a poor
+// connection.
 
 import { gzipSync } from 'node:zlib'
 import { expect, open, panel, test } from './support/test'
@@ -22,7 +23,7 @@ test('the first load of the console is at most a megabyte, compressed', async ({
   await Promise.all(reading)
   const bytes = [...files.values()].reduce((sum, one) => sum + one, 0)
   console.log(`first load: ${files.size} files, ${Math.round(bytes / 1000)} kB compressed`)
-  // The page, its script and style, the map and the timeline, at least.
+  // At least the page, its script and style, the map and the timeline.
   expect(files.size).toBeGreaterThan(6)
   expect(bytes).toBeLessThan(MOST_BYTES)
 })

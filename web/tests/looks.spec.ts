@@ -1,4 +1,4 @@
-// What the views of a day look like, on a day of New York that went wrong a little and stands still.
+// The look of a day's views, on a disturbed day of New York that stands still.
 
 import type { Page } from '@playwright/test'
 import type { Fleet } from './support/fleet'
@@ -7,7 +7,9 @@ import type { Program } from './support/program'
 import { expectToLook, screens } from './support/screens'
 import { expect, open, panel, test } from './support/test'
 
-/** Pictures have a font that `scripts/console` installs, whatever the machine prefers. */
+/**
+ * Screenshots use a font that `scripts/console` installs, regardless of the machine's preferences.
+ */
 async function useOneFont(page: Page): Promise<void> {
   await page.addInitScript(() => {
     document.addEventListener('DOMContentLoaded', () => {
@@ -20,7 +22,7 @@ async function useOneFont(page: Page): Promise<void> {
   })
 }
 
-/** What differs each time: how long the service took, when it did so, and the ids it gave. */
+/** Content that differs in each run: durations, times, and generated ids. */
 function passing(page: Page) {
   return [
     page.locator('.decision .bar'),
@@ -67,7 +69,7 @@ test('the views of a day look as they did', async ({ page, program }) => {
   for (const [view, show] of Object.entries(views)) {
     for (const screen of ['desk', 'phone'] as const) {
       await page.setViewportSize(screens[screen])
-      // A view begins anew only on a page that was left.
+      // A view starts afresh only after the page was left.
       await page.goto('about:blank')
       await show(page, program, fleet)
       await page.mouse.move(0, 0)

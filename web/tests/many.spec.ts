@@ -1,4 +1,5 @@
-// A day of 200 aircraft, which vertifleet operate flies: all of it is shown, and decisions are taken as on a small day.
+// A day of 200 aircraft, reported by vertifleet operate: all of it is shown, and decisions are
+// taken as on a small day.
 
 import { Fleet } from './support/fleet'
 import { networkOfTwoHundred } from './support/pictures'

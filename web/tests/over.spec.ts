@@ -1,4 +1,4 @@
-// The end of a day: the console says that it is over and what came of it, and offers nothing that would change it.
+// The end of a day: the console shows the result, and offers no action that would change the day.
 
 import { count, dollars } from '../src/model/money'
 import { expect, expectAccessible, open, test } from './support/test'

@@ -1,11 +1,12 @@
-// What is not reported has not happened: an aircraft that should have departed or landed is where it was heard of last, and overdue.
+// Without a report an event has not happened: an aircraft that should have departed or landed stays
+// at its last reported place, and is overdue.
 
 import type { Page } from '@playwright/test'
 import { clockMinutes, timeOf } from '../src/model/time'
 import type { Fleet } from './support/fleet'
 import { expect, expectAccessible, open, test } from './support/test'
 
-/** Sends A01 to East, and reports that it has departed. Gives when it is to land. */
+/** Sends A01 to East, reports its departure, and returns its landing time. */
 async function sendOff(fleet: Fleet): Promise<number> {
   await fleet.decide('A01', { to: 'East', reason: 'a test' })
   await fleet.report({ type: 'departed', aircraft: 'A01', time: '06:00:00' })
@@ -58,7 +59,7 @@ test('an aircraft that is not reported landed is in the air and overdue, everywh
   await expect(flightInTable(page).getByRole('cell').nth(1)).toHaveText('07:05:00')
   await expectAccessible(page)
 
-  // The others wait for decisions; once they are decided, the panel is about what is selected.
+  // The others wait for decisions. Once they are decided, the panel shows the selected aircraft.
   for (const aircraft of await fleet.waiting()) await fleet.decide(aircraft)
   await page.keyboard.press('Control+k')
   await page.getByRole('combobox', { name: /Find a command/ }).fill('a01')

@@ -1,5 +1,5 @@
-// The map and the timelines by themselves: what they look like, that they can be used with keys and without eyes, and that 200
-// aircraft move on a machine without a graphics processor.
+// The map and the timelines alone: their look, their use with keys and screen readers, and 200
+// moving aircraft on a machine without a graphics processor.
 
 import { expect, expectAccessible, frameTimes, test } from './support/pictures'
 import { expectToLook, screens } from './support/screens'
@@ -9,7 +9,10 @@ test.beforeAll(({ days }) => {
   days.make('disrupted', 'disrupted')
 })
 
-/** What is looked at, on which screens: New York has coasts, and a smaller network has less in its timelines to keep. */
+/**
+ * The pictures and screens to test: New York has coasts, and a smaller network has smaller
+ * timelines to store.
+ */
 const pictures = [
   { picture: 'map', day: 'new-york', on: ['desk', 'phone'] },
   { picture: 'fleet', day: 'disrupted', on: ['desk', 'phone'] },
@@ -134,7 +137,7 @@ test.describe('200 aircraft', () => {
       const before = await page.screenshot()
       const times = await frameTimes(page, 2000)
       expect((await page.screenshot()).equals(before)).toBe(false)
-      // How fast a machine draws is no property of the console, so it is told and not tested.
+      // The speed of a machine is no property of the console, so it is printed and not tested.
       const median_ms = times[Math.floor(times.length / 2)] ?? Infinity
       console.log(`${picture}: ${times.length} frames in 2 s, median ${median_ms.toFixed(1)} ms`)
     })

@@ -1,4 +1,4 @@
-// The replay: of a report from a disk, and of files that are chosen.
+// The replay: of a report from disk, and of chosen files.
 
 import { readFileSync } from 'node:fs'
 import { pathToFileURL } from 'node:url'
@@ -176,7 +176,7 @@ test('a report of the program opens from a disk and asks for nothing', async ({ 
   await replay.getByRole('slider', { name: 'Time of the day' }).focus()
   await page.keyboard.press('End')
   await expect(profit).toHaveText('$3,142')
-  // The address of the report leads back to the moment.
+  // The address of the report restores the time.
   await expect.poll(() => page.evaluate(() => location.hash)).toContain('at=')
   await page.reload()
   await expect(page.getByTitle('Replay')).toBeInViewport()

@@ -1,4 +1,4 @@
-// Studies against the real program: asked for, followed, read, reported and forgotten.
+// Studies against the real program: started, followed, read, saved and deleted.
 
 import { readFile } from 'node:fs/promises'
 import type { Page } from '@playwright/test'
@@ -7,7 +7,7 @@ import { Fleet, smallNetwork } from './support/fleet'
 import { expectToLook, screens } from './support/screens'
 import { expect, expectAccessibleInBoth, test } from './support/test'
 
-/** A study that has finished. */
+/** Plays a study to its end. */
 async function played(url: string): Promise<void> {
   const service = new Fleet(url, '')
   await service.ask('PUT', '/v1/networks/small', { toml: smallNetwork })
@@ -100,7 +100,7 @@ test('with a token the report is saved as a file', async ({ page, program }) => 
     (token) => sessionStorage.setItem('vertifleet-token', token),
     program.token('read'),
   )
-  // A service that was asked before the token was made lets all in for a moment longer.
+  // A service that was queried before the token existed accepts all requests for a moment longer.
   await expect.poll(async () => (await fetch(`${program.url}/v1/studies`)).status).toBe(401)
   await open(page, program.console)
   const download = page.waitForEvent('download')

@@ -1,4 +1,4 @@
-// Every view of the shell: reached by key, readable by all, and within its bounds on a phone.
+// Every view of the shell: reached by key, accessible, and within the width of a phone.
 
 import { dollars } from '../src/model/money'
 import { Fleet, smallNetwork } from './support/fleet'

@@ -1,4 +1,5 @@
-// A page with one picture of a day, for tests: which one, of which day and when is in the address, for example
+// A page with one picture of a day, for tests. The address contains the picture, the day and the
+// time, for example
 // `pictures.html?picture=map&scenario=/d/paper.json&trace=/d/paper.csv&at=08:00:00&speed=60`.
 
 import { mount } from 'svelte'

@@ -1,5 +1,5 @@
-// The browsers of the tests: a pinned Chromium for all of them, and the oldest Chromium and the Firefox that are supported for a few.
-// Playwright needs a Firefox of its own, so those few go by WebDriver BiDi.
+// The browsers of the tests: a pinned Chromium for all of them; the oldest supported Chromium and
+// Firefox for a few. Playwright needs a patched Firefox, so those few use WebDriver BiDi.
 
 import { existsSync } from 'node:fs'
 import { resolve } from 'node:path'
@@ -9,10 +9,10 @@ function unpacked(age: 'newest' | 'oldest'): string {
   return resolve('browsers/unpacked', age, 'chromium')
 }
 
-/** Debian's name for it, and Ubuntu's. */
+/** The name in Debian, and the one in Ubuntu. */
 const firefox = ['/usr/bin/firefox-esr', '/usr/bin/firefox'].find((path) => existsSync(path))
 
-/** What all tests run in, and pictures are taken with. */
+/** The browser of all tests and pictures. */
 export const chromium = process.env['VERTIFLEET_CHROMIUM'] ?? unpacked('newest')
 
 export const others = {

@@ -1,9 +1,10 @@
-// A fleet that flies as it is expected to: it reports departures and landings, and leaves decisions to the console.
+// A fleet that flies as expected: it reports departures and landings, and leaves decisions to the
+// console.
 
 import type { DayInfo, DayList, DayState, Event, NewDay, TakenEvent } from '../../src/api/types'
 import { clock, timeOf } from '../../src/model/time'
 
-/** A small network: quickly played, and with vertiports that fill up. */
+/** A small network: fast to play, and with vertiports that fill up. */
 export const smallNetwork = `
 format = "vertifleet-network/1"
 name = "small"
@@ -54,7 +55,7 @@ least = 4
 most = 30
 `
 
-/** The same on a day that goes wrong: late take-offs, a closure, and aircraft out of service. */
+/** The same on a disturbed day: late take-offs, a closure, and aircraft out of service. */
 export const disturbedNetwork = `${smallNetwork}
 [disturbances.takeoff_delays]
 slot_s = 900
@@ -92,7 +93,7 @@ export class Fleet {
     return new Fleet(url, day.id, token)
   }
 
-  /** The day that another user makes, as soon as it is there. */
+  /** The day that another user creates, as soon as it exists. */
   static async onDayOfOthers(url: string): Promise<Fleet> {
     for (;;) {
       const { days } = (await new Fleet(url, '').ask('GET', '/v1/days')) as DayList
@@ -117,7 +118,7 @@ export class Fleet {
     return (await this.ask('GET', `/v1/days/${this.day}/state`)) as DayState
   }
 
-  /** How many decisions were taken. */
+  /** The number of decisions taken. */
   async decisions(): Promise<number> {
     return (await this.state()).totals.decisions
   }
@@ -130,13 +131,13 @@ export class Fleet {
     await this.ask('POST', `/v1/days/${this.day}/events`, events)
   }
 
-  /** Who waits for a decision. */
+  /** The aircraft that wait for a decision. */
   async waiting(): Promise<string[]> {
     const { aircraft } = await this.state()
     return aircraft.filter((one) => one.needs_decision).map((one) => one.id)
   }
 
-  /** Goes on and takes the policy's decisions until a time, at which no aircraft waits. */
+  /** Plays with the policy's decisions until a time at which no aircraft waits. */
   async playUntil(time: string): Promise<void> {
     while (await this.goOn()) {
       const { now } = await this.state()
@@ -145,7 +146,7 @@ export class Fleet {
     }
   }
 
-  /** Goes on to the end and takes the policy's decisions. */
+  /** Plays to the end with the policy's decisions. */
   async playToTheEnd(): Promise<void> {
     while (await this.goOn()) for (const aircraft of await this.waiting()) await this.decide(aircraft)
   }
@@ -154,7 +155,7 @@ export class Fleet {
     await this.ask('POST', `/v1/days/${this.day}/decisions`, { aircraft, ...more })
   }
 
-  /** Goes on until an aircraft waits for a decision; false when none will any more. */
+  /** Plays until an aircraft waits for a decision; false if none will. */
   async goOn(): Promise<boolean> {
     for (;;) {
       const state = await this.state()
@@ -174,7 +175,7 @@ export class Fleet {
   }
 }
 
-/** What happens next if all goes as it is expected to; undefined if all aircraft stand for good. */
+/** The next event if all goes as expected; undefined if all aircraft stand until the end. */
 function nextOf(state: DayState): Event | undefined {
   const now = timeOf(state.now)
   const landings = state.aircraft

@@ -1,5 +1,5 @@
-// A day of New York to be looked at: a morning with a closure and an aircraft out of service, on which an aircraft waits for a
-// decision.
+// A day of New York for screenshots: a morning with a closure and an aircraft out of service, on
+// which an aircraft waits for a decision.
 
 import type { Page } from '@playwright/test'
 import { Fleet } from './fleet'
@@ -21,7 +21,10 @@ export async function morning(program: Program): Promise<Fleet> {
   return fleet
 }
 
-/** Shows a day without a clock that goes on: for a user who looks ten minutes later, nothing has happened for long. */
+/**
+ * Shows a day whose clock stands still: the page's time is ten minutes later, so the latest event
+ * is long ago.
+ */
 export async function standStill(page: Page): Promise<void> {
   await page.clock.setFixedTime(Date.now() + 600_000)
 }

@@ -1,4 +1,5 @@
-// Pages for tests of pictures: one picture of a day, served from the sources; and the replay page of a report, opened from a disk.
+// Pages for tests of pictures: one picture of a day, served from the sources; and the replay page
+// of a report, opened from disk.
 
 import { execFileSync } from 'node:child_process'
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
@@ -34,7 +35,7 @@ export class Days {
     execFileSync(program, args, { cwd: this.folder, stdio: 'pipe' })
   }
 
-  /** Draws a day of a network and plays it; its files are called `name.json` and `name.csv`. */
+  /** Draws a day of a network and plays it; its files are `name.json` and `name.csv`. */
   make(name: string, network: string, policy = 'prices'): void {
     this.run('scenario', network, '--seed', '100', '-o', `${name}.json`)
     this.run('simulate', `${name}.json`, '--policy', policy, '--trace', `${name}.csv`)
@@ -68,7 +69,7 @@ interface Fixtures {
 
 export const test = base.extend<Fixtures, WorkerFixtures>({
   days: [
-    // eslint-disable-next-line no-empty-pattern -- Playwright reads the names of the fixtures that are needed.
+    // eslint-disable-next-line no-empty-pattern -- Playwright requires a pattern.
     async ({}, use) => {
       const days = new Days()
       await use(days)
@@ -81,7 +82,7 @@ export const test = base.extend<Fixtures, WorkerFixtures>({
     // eslint-disable-next-line no-empty-pattern -- as above.
     async ({}, use) => {
       const server = await createServer({
-        // Found out only later, they would have the page loaded again in the middle of a test.
+        // If Vite discovered these later, it would reload the page during a test.
         optimizeDeps: { include: ['maplibre-gl', 'pmtiles'] },
         server: { port: 0, host: '127.0.0.1', hmr: false },
         logLevel: 'silent',
@@ -121,14 +122,16 @@ export const test = base.extend<Fixtures, WorkerFixtures>({
       const [address] = server.resolvedUrls?.local ?? []
       await page.goto(`${address}tests/pages/pictures.html?${files}&${query}`)
       await page.locator('canvas:visible').first().waitFor()
-      // The first frame has the size of the page, the second what is drawn in it.
+      // The first frame sets the size of the page, the second draws the content.
       for (let frame = 0; frame < 2; frame++)
         await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(drawn)))
     })
   },
 })
 
-/** Pictures of tests have a font that `scripts/console` installs, whatever the machine prefers. */
+/**
+ * Screenshots use a font that `scripts/console` installs, regardless of the machine's preferences.
+ */
 function useOneFont(): void {
   const style = () => {
     const sheet = new CSSStyleSheet()
@@ -142,7 +145,9 @@ export function fixture(file: string): string {
   return join(fixtures, file)
 }
 
-/** Writes the built replay page with the day of the fixtures under both policies, and gives its address. */
+/**
+ * Writes the built replay page with the fixtures' day under both policies, and returns its address.
+ */
 export function replayOfFixtures(days: Days): string {
   const play = (policy: string, profit_usd: number) => ({
     policy,
@@ -158,7 +163,7 @@ export function replayOfFixtures(days: Days): string {
   return pathToFileURL(days.path('replay.html')).href
 }
 
-/** When frames were shown for some time, as the milliseconds between two of them, in order of length. */
+/** The milliseconds between consecutive frames within a time, sorted. */
 export async function frameTimes(page: Page, for_ms: number): Promise<number[]> {
   const times = await page.evaluate(
     (length) =>

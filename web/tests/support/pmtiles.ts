@@ -1,5 +1,6 @@
-// A PMTiles file as small as can be: one vector tile of the whole world, with water in the west of it. The format is that of
-// https://github.com/protomaps/PMTiles/blob/main/spec/v3/spec.md, the tile that of the Mapbox Vector Tile specification 2.1.
+// A minimal PMTiles file: one vector tile of the whole world, with water in the west of it. The
+// format is that of https://github.com/protomaps/PMTiles/blob/main/spec/v3/spec.md, the tile that
+// of the Mapbox Vector Tile specification 2.1.
 
 const HEADER_BYTES = 127
 const EXTENT = 4096
@@ -9,7 +10,7 @@ const VECTOR = 1
 /** The file, with water from the edge of the map at 180° west to a longitude. */
 export function worldWithWaterWestOf(longitude: number): Buffer {
   const tile = waterTile(Math.round(((longitude + 180) / 360) * EXTENT))
-  // One entry: tile 0, once, of so many bytes, at the first byte (written as 1).
+  // One entry: tile 0, run length 1, its length in bytes, at the first byte (written as 1).
   const directory = Buffer.from([
     ...varint(1),
     ...varint(0),
@@ -24,7 +25,8 @@ export function worldWithWaterWestOf(longitude: number): Buffer {
   header.write('PMTiles')
   header[7] = 3
   let offset = HEADER_BYTES
-  // Where each part is and how long: the directory, the metadata, further directories, the tiles.
+  // The offset and length of each part: the directory, the metadata, further directories, the
+  // tiles.
   for (const [index, length] of [directory.length, metadata.length, 0, tile.length].entries()) {
     header.writeBigUInt64LE(BigInt(offset), 8 + 16 * index)
     header.writeBigUInt64LE(BigInt(length), 16 + 16 * index)
@@ -45,7 +47,7 @@ function waterTile(east: number): Buffer {
   const geometry = [
     ...[9, 0, 0],
     ...[26, zigzag(east), 0, 0, zigzag(EXTENT), zigzag(-east), 0],
-    // The ring is closed.
+    // Closes the ring.
     15,
   ].flatMap(varint)
   const feature = [...number(3, 3), ...bytes(4, geometry)]
@@ -58,12 +60,12 @@ function waterTile(east: number): Buffer {
   return Buffer.from(bytes(3, layer))
 }
 
-/** A member of a protocol buffer that is a number. */
+/** A numeric member of a protocol buffer. */
 function number(member: number, value: number): number[] {
   return [...varint(member << 3), ...varint(value)]
 }
 
-/** A member of a protocol buffer that is bytes. */
+/** A member of a protocol buffer with bytes. */
 function bytes(member: number, value: number[]): number[] {
   return [...varint((member << 3) | 2), ...varint(value.length), ...value]
 }

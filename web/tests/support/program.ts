@@ -1,4 +1,4 @@
-// The real program, started for one test with a folder of its own, killed and started again as the test wants.
+// The real program, started for one test with a temporary folder. The test can stop and restart it.
 
 import { execFileSync, spawn, type ChildProcess } from 'node:child_process'
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs'
@@ -7,7 +7,7 @@ import { join, resolve } from 'node:path'
 import { preview, type PreviewServer } from 'vite'
 
 const program = resolve(process.env['VERTIFLEET_PROGRAM'] ?? '../target/checked/release/vertifleet')
-/** A folder to take the console from in the place of the program. */
+/** A folder from which the console is served instead of the program. */
 const previewed = process.env['VERTIFLEET_PREVIEW']
 
 export class Program {
@@ -19,7 +19,9 @@ export class Program {
 
   private constructor(private readonly more: readonly string[]) {}
 
-  /** Starts the service; `more` is what it is told beside where to listen and where its data is. */
+  /**
+   * Starts the service; `more` contains arguments in addition to the address and the data folder.
+   */
   static async start(...more: string[]): Promise<Program> {
     const started = new Program(more)
     await started.run()
@@ -27,18 +29,18 @@ export class Program {
     return started
   }
 
-  /** Where the service is. */
+  /** The address of the service. */
   get url(): string {
     return `http://127.0.0.1:${this.#port}`
   }
 
-  /** Where the console is. */
+  /** The address of the console. */
   get console(): string {
     const address = this.#preview?.httpServer.address()
     return typeof address === 'object' && address !== null ? `http://127.0.0.1:${address.port}` : this.url
   }
 
-  /** Starts the service, after it was killed at the same address. */
+  /** Starts the service; after a stop it gets the same address. */
   async run(): Promise<void> {
     const address = `127.0.0.1:${this.#port}`
     const child = spawn(program, ['serve', '--listen', address, '--data', this.#folder, ...this.more])
@@ -65,7 +67,10 @@ export class Program {
     await ended
   }
 
-  /** Lets `vertifleet operate` report a day of a network to its end, and gives what went wrong with it: nothing, or an error. */
+  /**
+   * Runs `vertifleet operate`, which reports a day of a network to its end. Returns its error, or
+   * an empty text.
+   */
   operate(network: string, ...args: string[]): Promise<string> {
     const file = join(this.#folder, 'operated.toml')
     writeFileSync(file, network)
@@ -76,7 +81,7 @@ export class Program {
     return new Promise((ends) => child.once('close', (code) => ends(code === 0 ? '' : `${code}: ${said}`)))
   }
 
-  /** Makes a token, after which every request needs one. */
+  /** Creates a token, after which every request needs one. */
   token(role: 'read' | 'dispatch' | 'admin'): string {
     const args = [
       'serve',

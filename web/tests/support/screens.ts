@@ -1,8 +1,8 @@
-// The screens on which the console is looked at, and how it looks there.
+// The screen sizes for screenshots, and their comparison.
 
 import { expect, type Locator, type Page } from '@playwright/test'
 
-/** Edges of letters and lines differ a little from machine to machine. */
+/** Anti-aliasing differs slightly between machines. */
 const TOLERANCE = { maxDiffPixelRatio: 0.002 }
 
 export const screens = {
@@ -10,7 +10,10 @@ export const screens = {
   phone: { width: 390, height: 844 },
 }
 
-/** Compares the page with the pictures that are kept, in the light and in the dark; what changes from run to run is masked. */
+/**
+ * Compares the page with the stored screenshots, in the light and the dark theme; content that
+ * changes in each run is masked.
+ */
 export async function expectToLook(page: Page, name: string, mask: Locator[] = []): Promise<void> {
   for (const colorScheme of ['light', 'dark'] as const) {
     await page.emulateMedia({ colorScheme })

@@ -1,4 +1,5 @@
-// What all tests of the console have: the program, a console on a day, and the promise that nothing goes wrong unseen.
+// The common parts of the console's tests: the program, a console on a day, and the check that the
+// page has no errors.
 
 import AxeBuilder from '@axe-core/playwright'
 import { expect, test as base, type Page } from '@playwright/test'
@@ -8,12 +9,12 @@ import { Program } from './program'
 interface Fixtures {
   program: Program
   fleet: Fleet
-  /** What went wrong in the page: errors of scripts and offences against the content security policy. */
+  /** Errors in the page: of scripts, and violations of the content security policy. */
   wrongs: string[]
 }
 
 export const test = base.extend<Fixtures>({
-  // eslint-disable-next-line no-empty-pattern -- Playwright reads the names of the fixtures that are needed.
+  // eslint-disable-next-line no-empty-pattern -- Playwright requires a pattern.
   program: async ({}, use) => {
     const program = await Program.start()
     await use(program)
@@ -40,24 +41,27 @@ export const test = base.extend<Fixtures>({
 
 export { expect }
 
-/** Opens a view of the day that the fleet flies on, and waits until it is there: a view that is still loading knows no keys. */
+/**
+ * Opens a view of the fleet's day, and waits until it is loaded, because a view that is still
+ * loading ignores keys.
+ */
 export async function open(page: Page, program: Program, fleet: Fleet, view = 'now'): Promise<void> {
   await page.goto(`${program.console}/#/day/${fleet.day}/${view}`)
   await expect(page.getByText('Live', { exact: true })).toBeVisible()
   await expect(page.getByRole('heading', { level: 1 })).toBeAttached()
 }
 
-/** The panel in which decisions are taken. */
+/** The panel for decisions. */
 export function panel(page: Page) {
   return page.getByRole('region', { name: 'Decision', exact: true })
 }
 
-/** Those who wait for a decision, as buttons. */
+/** The aircraft that wait for a decision, as buttons. */
 export function waiting(page: Page) {
   return page.getByRole('region', { name: 'Needs a decision' }).getByRole('listitem').getByRole('button')
 }
 
-/** Sees that axe finds nothing serious, in the light and in the dark, which differ in their contrasts alone. */
+/** Checks with axe in the light and the dark theme, which differ only in contrast. */
 export async function expectAccessibleInBoth(page: Page): Promise<void> {
   await page.emulateMedia({ colorScheme: 'light' })
   await expectAccessible(page)
@@ -65,7 +69,7 @@ export async function expectAccessibleInBoth(page: Page): Promise<void> {
   await expectNothingSerious(new AxeBuilder({ page }).withRules('color-contrast'))
 }
 
-/** Sees that axe finds nothing serious. */
+/** Checks that axe finds no serious problem. */
 export async function expectAccessible(page: Page): Promise<void> {
   await expectNothingSerious(new AxeBuilder({ page }))
 }
