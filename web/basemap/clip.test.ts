@@ -39,7 +39,7 @@ describe('rings', () => {
 })
 
 describe('lines', () => {
-  it('are cut where they leave a cell, and reach one point beyond it on both sides', () => {
+  it('are cut where they leave a cell, with one point beyond it on both sides', () => {
     const cells = linesByCell(
       [
         [

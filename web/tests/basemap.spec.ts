@@ -78,7 +78,7 @@ async function withBasemap(address: string, use: (program: Program) => Promise<v
   }
 }
 
-test('a PMTiles file is drawn in the colours of the console, on the map of a day and in the editor', async ({
+test('a PMTiles file is drawn in the console’s colours, on the map of a day and in the editor', async ({
   page,
   tiles,
 }) => {
@@ -101,7 +101,7 @@ test('a PMTiles file is drawn in the colours of the console, on the map of a day
   })
 })
 
-test('a style is drawn as it is', async ({ page, tiles }) => {
+test('a style is drawn unchanged', async ({ page, tiles }) => {
   await withBasemap(`${tiles}/style.json`, async ({ url }) => {
     await page.goto(`${url}/#/networks`)
     await page.getByRole('button', { name: /new-york/ }).click()
@@ -112,7 +112,7 @@ test('a style is drawn as it is', async ({ page, tiles }) => {
   })
 })
 
-test('a base map that cannot be had leaves the bundled one, and says so', async ({ page }) => {
+test('an unavailable base map leaves the bundled one, with a message', async ({ page }) => {
   await withBasemap('http://127.0.0.1:9/world.pmtiles', async ({ url }) => {
     await page.goto(`${url}/#/networks`)
     await page.getByRole('button', { name: /new-york/ }).click()

@@ -27,7 +27,7 @@ for (const [name, launch] of Object.entries(others)) {
     })
     test.afterAll(() => browser.close())
 
-    test('opens a report from a disk, and its replay keeps its moment', async () => {
+    test('opens a report from disk, and its replay keeps its time', async () => {
       const days = new Days()
       try {
         days.run('scenario', fixture('tiny.toml'), '--seed', '1', '-o', 'day.json')

@@ -2,7 +2,7 @@
 
 import { expect, open, panel, test } from './support/test'
 
-test('a lost connection heals, and what was typed is still there', async ({ page, program, fleet }) => {
+test('a lost connection recovers, and typed text is still there', async ({ page, program, fleet }) => {
   await open(page, program, fleet)
   await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
   await page.keyboard.press('o')
@@ -21,7 +21,7 @@ test('a lost connection heals, and what was typed is still there', async ({ page
   expect((await fleet.events())[0]?.event).toMatchObject({ aircraft: 'A01', reason: 'half a reason' })
 })
 
-test('what happened while the connection was away is there afterwards', async ({ page, program, fleet }) => {
+test('events during a lost connection are shown afterwards', async ({ page, program, fleet }) => {
   await open(page, program, fleet, 'log')
   await program.kill()
   await expect(page.getByText('Reconnecting', { exact: true })).toBeVisible()
@@ -33,7 +33,7 @@ test('what happened while the connection was away is there afterwards', async ({
   await expect(page.getByRole('cell', { name: /^A01 is to go to/ })).toHaveCount(1)
 })
 
-test('a service that sends no more of a day says why', async ({ page, program, fleet }) => {
+test('a service that stops a stream gives the reason', async ({ page, program, fleet }) => {
   await open(page, program, fleet, 'log')
   await fleet.ask('POST', `/v1/days/${fleet.day}/archive`)
   await fleet.ask('DELETE', `/v1/days/${fleet.day}`)
@@ -42,7 +42,7 @@ test('a service that sends no more of a day says why', async ({ page, program, f
   await expect(page.getByRole('alert')).toContainText(/the service sends no more of this day\. It says: /)
 })
 
-test('two consoles on one day see each other', async ({ page, context, program, fleet }) => {
+test('two consoles on one day show each other’s decisions', async ({ page, context, program, fleet }) => {
   const other = await context.newPage()
   await open(page, program, fleet)
   await open(other, program, fleet)
@@ -61,7 +61,7 @@ test('two consoles on one day see each other', async ({ page, context, program, 
   await expect(theirs.getByRole('heading', { name: /^A02/ })).toBeVisible()
 })
 
-test('a console that is not touched follows the other', async ({ page, context, program, fleet }) => {
+test('an idle console follows the other one', async ({ page, context, program, fleet }) => {
   const other = await context.newPage()
   await open(other, program, fleet)
   await open(page, program, fleet)
@@ -70,7 +70,7 @@ test('a console that is not touched follows the other', async ({ page, context, 
   await expect(panel(other).getByRole('heading', { name: /^A02/ })).toBeVisible()
 })
 
-test('a token is asked for, kept out of addresses, and says what one may do', async ({
+test('a token is requested, kept out of addresses, and limits the actions', async ({
   page,
   program,
   fleet,

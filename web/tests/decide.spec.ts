@@ -4,7 +4,7 @@ import { dollars } from '../src/model/money'
 import { disturbedNetwork, Fleet } from './support/fleet'
 import { expect, open, panel, test, waiting } from './support/test'
 
-test('an acceptance is the decision of the policy', async ({ page, context, program, fleet }) => {
+test('accepting takes the decision of the policy', async ({ page, context, program, fleet }) => {
   await open(page, program, fleet)
   await expect(waiting(page)).toHaveCount(6)
   await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
@@ -32,7 +32,7 @@ test('an acceptance is the decision of the policy', async ({ page, context, prog
   await expect(page.getByText('The decision of A01 is taken back.')).toBeVisible()
 })
 
-test('advice that came up only now cannot be accepted yet, which its button shows', async ({
+test('advice that has only just appeared cannot be accepted yet, and its button is disabled', async ({
   page,
   program,
   fleet,
@@ -50,7 +50,7 @@ test('advice that came up only now cannot be accepted yet, which its button show
   expect(await page.evaluate(() => (window as unknown as { seen: boolean[] }).seen)).toEqual([true, false])
 })
 
-test('the way back goes when the aircraft departs', async ({ page, program, fleet }) => {
+test('the undo button disappears when the aircraft departs', async ({ page, program, fleet }) => {
   await open(page, program, fleet)
   await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
   await page.keyboard.press('a')
@@ -71,10 +71,7 @@ test('a key that is pressed twice decides for one aircraft', async ({ page, prog
   expect(await fleet.events()).toHaveLength(1)
 })
 
-test('a whole disturbed day that vertifleet operate reports is dispatched by accepting', async ({
-  page,
-  program,
-}) => {
+test('a whole disturbed day of vertifleet operate is dispatched by accepting', async ({ page, program }) => {
   test.setTimeout(240_000)
   let isOver = false
   const operator = program
@@ -117,7 +114,7 @@ test('a whole disturbed day that vertifleet operate reports is dispatched by acc
   await expect(page.locator('.figures')).toContainText(dollars(totals.profit_usd))
 })
 
-test('another decision needs a reason, and the log keeps it', async ({ page, program, fleet }) => {
+test('an override needs a reason, which the log contains', async ({ page, program, fleet }) => {
   await open(page, program, fleet)
   const advised = (await panel(page).locator('.choice').innerText()).split(' ').at(-1)
   await page.keyboard.press('o')
@@ -142,11 +139,7 @@ test('another decision needs a reason, and the log keeps it', async ({ page, pro
   await expect(page.getByRole('cell', { name: /“the crew lives there”/ })).toBeVisible()
 })
 
-test('a decision is taken back as long as the aircraft has not departed', async ({
-  page,
-  program,
-  fleet,
-}) => {
+test('a decision can be undone until the aircraft departs', async ({ page, program, fleet }) => {
   await open(page, program, fleet)
   await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
   await page.keyboard.press('a')
@@ -169,7 +162,7 @@ test('a decision is taken back as long as the aircraft has not departed', async 
   await expect(lately.getByRole('button', { name: 'Undo' })).toBeHidden()
 })
 
-test('what is not possible is shown with its rule', async ({ page, program, fleet }) => {
+test('impossible choices are shown with their rules', async ({ page, program, fleet }) => {
   await fleet.report({ type: 'closed', routes: { vertiport: 'East' } })
   await open(page, program, fleet)
   const impossible = panel(page).getByRole('listitem').filter({ hasText: 'East' })

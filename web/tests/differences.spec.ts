@@ -16,7 +16,7 @@ async function closeSouth(page: Page): Promise<void> {
 
 const sides = ['As it is', 'What if'] as const
 
-test('both ways a day can go on are in view at once, and say how much differs', async ({
+test('both continuations of a day are visible at once, with the number of differences', async ({
   page,
   program,
   fleet,
@@ -31,7 +31,7 @@ test('both ways a day can go on are in view at once, and say how much differs', 
   await expectAccessible(page)
 })
 
-test('the first difference is shown in both rests, by button and by key', async ({
+test('the first difference is shown in both continuations, by button and by key', async ({
   page,
   program,
   fleet,
@@ -58,7 +58,7 @@ test('the first difference is shown in both rests, by button and by key', async 
   }
 })
 
-test('a day without a difference says so', async ({ page, program, fleet }) => {
+test('a comparison without differences says so', async ({ page, program, fleet }) => {
   await open(page, program, fleet, 'what-if')
   await page.getByRole('button', { name: 'Compare', exact: true }).click()
   await expect(
@@ -70,7 +70,7 @@ test('a day without a difference says so', async ({ page, program, fleet }) => {
 test.describe('the replay of a live day', () => {
   test.beforeEach(async ({ fleet }) => fleet.playUntil('07:00:00'))
 
-  test('has the plan of a policy beside it, which a link shows too', async ({ page, program, fleet }) => {
+  test('shows the plan of a policy, also from a link', async ({ page, program, fleet }) => {
     await open(page, program, fleet, 'replay')
     await page.getByLabel('Beside it').selectOption('greedy')
     await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
@@ -98,7 +98,7 @@ test.describe('the replay of a live day', () => {
     await expect(page).not.toHaveURL(/with=/)
   })
 
-  test('says why a policy has no plan', async ({ page, program, fleet }) => {
+  test('explains why a policy has no plan', async ({ page, program, fleet }) => {
     await page.route(/outlook\?.*policy=rolling/, (route) =>
       route.fulfill({
         status: 409,
@@ -121,7 +121,7 @@ test.describe('the replay of a live day', () => {
     await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
   })
 
-  test('keeps the plans beside a trace that is added, and goes back from another day', async ({
+  test('still offers plans after a trace was added, and returns from another day', async ({
     page,
     program,
     fleet,
@@ -148,19 +148,19 @@ test.describe('the replay of a live day', () => {
     await expect(beside.getByRole('option', { name: 'mine, from a file' })).toBeAttached()
   })
 
-  test('says that a link asks for a policy that there is not', async ({ page, program, fleet }) => {
+  test('reports an unknown policy in a link', async ({ page, program, fleet }) => {
     await page.goto(`${program.console}/#/day/${fleet.day}/replay?with=zzz`)
     await expect(page.getByText('There is no policy “zzz” to show beside the day.')).toBeVisible()
     await expect(page.getByLabel('Beside it')).toHaveValue('')
   })
 
-  test('has one clock, which is that of the moment', async ({ page, program, fleet }) => {
+  test('has one clock, which shows the time of the replay', async ({ page, program, fleet }) => {
     await open(page, program, fleet, 'replay')
     await expect(page.getByRole('time')).toHaveText('06:00:00')
     await expect(page.locator('header .clock')).toHaveCount(0)
   })
 
-  test('says which files it wants, and which one is wrong', async ({ page, program, fleet }) => {
+  test('explains which files it needs, and which one is wrong', async ({ page, program, fleet }) => {
     await open(page, program, fleet, 'replay')
     const add = page.getByRole('button', { name: 'Add files' })
     await expect(add).toHaveAccessibleDescription(
@@ -179,7 +179,7 @@ test.describe('the replay of a live day', () => {
   })
 })
 
-test('the buttons of a timeline can be hit', async ({ page, program, fleet }) => {
+test('the buttons of a timeline can be clicked', async ({ page, program, fleet }) => {
   await open(page, program, fleet, 'timeline')
   for (const tools of await page.getByRole('group', { name: 'Tools of the timeline' }).all()) {
     for (const button of await tools.getByRole('button').all()) {

@@ -21,7 +21,7 @@ async function read(url: string, network: string): Promise<NetworkInfo> {
   return (await (await fetch(`${url}/v1/networks/${network}`)).json()) as NetworkInfo
 }
 
-test('a vertiport is added, put right, saved and played', async ({ page, program }) => {
+test('a vertiport is added, corrected, saved and played', async ({ page, program }) => {
   await openNetwork(page, program.console, /plane of miles/)
   await page.getByRole('button', { name: 'Add a vertiport' }).click()
   const map = await page.getByRole('region', { name: 'Map of the vertiports' }).boundingBox()
@@ -67,7 +67,7 @@ test('a vertiport is added, put right, saved and played', async ({ page, program
   await expect(page.getByLabel('Stands of V1')).toHaveValue('9')
 })
 
-test('a new network is compared with itself before the latest change, and one that is not changed with nothing', async ({
+test('a new network is compared with its previous version, and an unchanged one with nothing', async ({
   page,
   program,
 }) => {
@@ -88,7 +88,10 @@ test('a new network is compared with itself before the latest change, and one th
   await expect(earn.getByText('Difference to what you played before')).toBeVisible()
 })
 
-test('a field without its number says so, and the file keeps the former one', async ({ page, program }) => {
+test('a field without its number shows an error, and the file keeps the former one', async ({
+  page,
+  program,
+}) => {
   await openNetwork(page, program.console, /paper/)
   const stands = page.getByLabel('Stands of V1')
   await stands.fill('')
@@ -102,7 +105,7 @@ test('a field without its number says so, and the file keeps the former one', as
   await expect(page.getByLabel('Chargers of V1')).toHaveAccessibleDescription(/Empty if all have one/)
 })
 
-test('an id that is cleared stays in the file, and what the text lacks is said plainly', async ({
+test('a cleared id stays in the file, and missing members are reported plainly', async ({
   page,
   program,
 }) => {
@@ -121,7 +124,7 @@ test('an id that is cleared stays in the file, and what the text lacks is said p
   await expect(page.getByLabel('Id of V11', { exact: true })).toHaveValue('V11')
 })
 
-test('vertiports are added, moved and removed by keyboard, and all of it is taken back', async ({
+test('vertiports are added, moved and removed by keyboard, and all of it is undone', async ({
   page,
   program,
 }) => {
@@ -159,7 +162,7 @@ test('a vertiport is dragged, and nothing else in the file changes', async ({ pa
   expect(changed.map((line) => line.split(' = ')[0])).toEqual(['latitude', 'longitude'])
 })
 
-test('what is typed in the text is in the forms, and what is no TOML waits', async ({ page, program }) => {
+test('typed text appears in the forms, but invalid TOML does not', async ({ page, program }) => {
   await openNetwork(page, program.console, /new-york/)
   const toml = await text(page).inputValue()
   await text(page).fill(toml.replace('name = "new-york"', 'name = "new-york'))
@@ -192,7 +195,7 @@ test('a pair and a period are changed', async ({ page, program }) => {
   await expect(page.getByText(/^No errors:/)).toBeVisible()
 })
 
-test('a shipped network is saved under a name of its own', async ({ page, program }) => {
+test('a shipped network is saved under another name', async ({ page, program }) => {
   await openNetwork(page, program.console, /paper/)
   await page.getByLabel('Stands of V1').fill('7')
   await expect(page.getByText(/^No errors:/)).toBeVisible()
@@ -211,7 +214,7 @@ test('a shipped network is saved under a name of its own', async ({ page, progra
   await expect(page.getByLabel('Stands of V1')).toHaveValue('7')
 })
 
-test('the service is asked once for all that is typed without a pause', async ({ page, program }) => {
+test('the service checks once for all text typed without a pause', async ({ page, program }) => {
   await page.clock.install()
   await openNetwork(page, program.console, /paper/)
   const asked: string[] = []
@@ -234,7 +237,7 @@ async function openFile(page: Page, console: string): Promise<void> {
   await expect(page.getByText(/^No errors:/)).toBeVisible()
 }
 
-test('a file is opened and saved, and deleted networks can be taken back', async ({ page, program }) => {
+test('a file is opened and saved, and the deletion of a network can be undone', async ({ page, program }) => {
   await openFile(page, program.console)
   await page.getByRole('button', { name: 'Save', exact: true }).click()
   await expect(page.getByText('small is saved.')).toBeVisible()
@@ -247,7 +250,7 @@ test('a file is opened and saved, and deleted networks can be taken back', async
   await expect.poll(async () => (await fetch(`${program.url}/v1/networks/small`)).status).toBe(200)
 })
 
-test('no network is replaced unasked', async ({ page, program }) => {
+test('no network is replaced without confirmation', async ({ page, program }) => {
   await fetch(`${program.url}/v1/networks/small`, {
     method: 'PUT',
     body: JSON.stringify({ toml: smallNetwork }),
@@ -282,7 +285,7 @@ test('a user who may only read can edit and download, and neither saves nor play
   expect((await download).suggestedFilename()).toBe('paper.toml')
 })
 
-test('axe finds nothing serious in the editor', async ({ page, program }) => {
+test('axe finds no serious problem in the editor', async ({ page, program }) => {
   await page.goto(`${program.console}/#/networks`)
   await expect(page.getByRole('button', { name: /new-york/ })).toBeVisible()
   await expectAccessibleInBoth(page)
@@ -299,7 +302,7 @@ test('axe finds nothing serious in the editor', async ({ page, program }) => {
 })
 
 for (const screen of ['desk', 'phone'] as const) {
-  test(`the editor looks as it did (${screen})`, async ({ page, program }) => {
+  test(`the editor looks like its screenshot (${screen})`, async ({ page, program }) => {
     await page.setViewportSize(screens[screen])
     await openNetwork(page, program.console, /new-york/)
     await page.waitForLoadState('networkidle')

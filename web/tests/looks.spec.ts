@@ -61,7 +61,7 @@ const views: Record<string, (page: Page, program: Program, fleet: Fleet) => Prom
   },
 }
 
-test('the views of a day look as they did', async ({ page, program }) => {
+test('the views of a day look like their screenshots', async ({ page, program }) => {
   test.setTimeout(300_000)
   const fleet = await morning(program)
   await standStill(page)

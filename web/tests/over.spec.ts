@@ -3,7 +3,7 @@
 import { count, dollars } from '../src/model/money'
 import { expect, expectAccessible, open, test } from './support/test'
 
-test('a day that is over shows its result, and nothing of it can be taken back', async ({
+test('a day that is over shows its result, and none of its decisions can be undone', async ({
   page,
   program,
   fleet,

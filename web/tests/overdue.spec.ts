@@ -29,7 +29,7 @@ function flightInTable(page: Page) {
   return page.getByRole('row', { name: /→ East/ }).first()
 }
 
-test('an aircraft that is not reported landed is in the air and overdue, everywhere', async ({
+test('an aircraft without a reported landing is in the air and overdue in every view', async ({
   page,
   program,
   fleet,
@@ -75,7 +75,7 @@ test('an aircraft that is not reported landed is in the air and overdue, everywh
   await expect(flightInTable(page).getByRole('cell').nth(1)).toHaveText('07:06:00')
 })
 
-test('an aircraft that is not reported departed stands where it was', async ({ page, program, fleet }) => {
+test('an aircraft without a reported departure stays at its vertiport', async ({ page, program, fleet }) => {
   await fleet.decide('A01', { to: 'East', reason: 'a test' })
   await open(page, program, fleet)
   const summary = page.getByText(/^A map of/)
@@ -87,7 +87,7 @@ test('an aircraft that is not reported departed stands where it was', async ({ p
   await expect(flightInTable(page).getByRole('cell').nth(0)).toHaveText('06:50:00')
 })
 
-test('the replay and a what-if of the day have it in the air too', async ({ page, program, fleet }) => {
+test('the replay and a what-if of the day show it in the air too', async ({ page, program, fleet }) => {
   await sendOff(fleet)
   await fleet.report({ type: 'clock', time: '07:05:00' })
   await open(page, program, fleet, 'replay')

@@ -22,7 +22,7 @@ const pictures = [
 test.describe('pictures', () => {
   for (const { picture, day, on } of pictures) {
     for (const screen of on) {
-      test(`the ${picture} looks as it did (${screen})`, async ({ page, show }) => {
+      test(`the ${picture} looks like its screenshot (${screen})`, async ({ page, show }) => {
         await page.setViewportSize(screens[screen])
         await show(`picture=${picture}&day=${day}&at=13:20:00`)
         await expectToLook(page, `${picture}-${screen}`)
@@ -31,7 +31,7 @@ test.describe('pictures', () => {
   }
 
   for (const picture of ['map', 'fleet', 'stands']) {
-    test(`axe finds nothing serious in the ${picture}`, async ({ page, show }) => {
+    test(`axe finds no serious problem in the ${picture}`, async ({ page, show }) => {
       await show(`picture=${picture}&day=disrupted&at=10:00:00`)
       await expectAccessible(page)
     })
@@ -40,10 +40,7 @@ test.describe('pictures', () => {
 
 test.describe('the map', () => {
   test.describe('without a graphics processor', () => {
-    test('says in words what it shows, and hides its canvases from those who hear it', async ({
-      page,
-      show,
-    }) => {
+    test('has a text summary, and hides its canvases from screen readers', async ({ page, show }) => {
       await show('picture=map&day=new-york&at=10:31:00')
       const map = page.getByRole('region', { name: 'Map' })
       await expect(
@@ -52,7 +49,7 @@ test.describe('the map', () => {
       await expect(map.locator('[aria-hidden=true] canvas').first()).toBeVisible()
     })
 
-    test('zooms and goes back, and says what is pointed at', async ({ page, show }) => {
+    test('zooms and resets, and describes the object under the pointer', async ({ page, show }) => {
       await show('picture=map&day=disrupted&at=10:31:00')
       const all = page.getByRole('button', { name: 'Show all vertiports' })
       await expect(all).toBeDisabled()
@@ -75,7 +72,7 @@ test.describe('the map', () => {
 })
 
 test.describe('a timeline', () => {
-  test('is walked with keys, and says where one is', async ({ page, show }) => {
+  test('is navigated with keys, and announces the selection', async ({ page, show }) => {
     await show('picture=fleet&day=disrupted&at=10:00:00')
     const timeline = page.getByRole('application', { name: /Timeline of the fleet/ })
     await timeline.focus()
@@ -93,7 +90,7 @@ test.describe('a timeline', () => {
     await expect(page.getByRole('button', { name: 'Show the whole day' })).toBeDisabled()
   })
 
-  test('is a table for those who want one', async ({ page, show }) => {
+  test('can be shown as a table', async ({ page, show }) => {
     await show('picture=fleet&day=disrupted&at=10:00:00')
     await page.getByRole('button', { name: 'As a table' }).click()
     await page.getByLabel('Aircraft', { exact: true }).selectOption('A05')
@@ -103,7 +100,7 @@ test.describe('a timeline', () => {
     await expectAccessible(page)
   })
 
-  test('says what a bar is, and selects it', async ({ page, show }) => {
+  test('describes a bar, and selects it', async ({ page, show }) => {
     await show('picture=fleet&day=disrupted&at=10:00:00')
     await page.mouse.move(100, 40)
     await expect(page.getByText(/^A01 · V\d → V\d$/)).toBeVisible()

@@ -22,7 +22,7 @@ test('a day is played to its end', async ({ page }) => {
   await expect(page.getByRole('button', { name: 'Play', exact: true })).toBeVisible()
 })
 
-test('time is moved along the scrubber, by key and by pointer', async ({ page }) => {
+test('the scrubber moves the time, by key and by pointer', async ({ page }) => {
   await page.goto(`${address}#policy=prices&with=`)
   const scrubber = page.getByRole('slider', { name: 'Time of the day' })
   await scrubber.focus()
@@ -41,7 +41,7 @@ test('time is moved along the scrubber, by key and by pointer', async ({ page })
   await expect(scrubber).toHaveAttribute('aria-valuetext', /^08:0[23]/)
 })
 
-test('steps lead from decision to decision', async ({ page }) => {
+test('steps move between decisions', async ({ page }) => {
   await page.goto(`${address}#policy=prices&with=`)
   const clock = page.getByRole('time')
   await page.getByRole('button', { name: 'To the next decision' }).click()
@@ -54,14 +54,14 @@ test('steps lead from decision to decision', async ({ page }) => {
   await expect(clock).toHaveText('07:19:21')
 })
 
-test('what earned most is looked at first, beside the next best', async ({ page }) => {
+test('the best play is shown first, next to the second best', async ({ page }) => {
   await page.goto(address)
   await expect(page.getByLabel('Policy', { exact: true })).toHaveValue('greedy')
   await expect(page.getByLabel('Beside it')).toHaveValue('prices')
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
 })
 
-test('one policy stays alone for a user with the link', async ({ page }) => {
+test('a link to a single policy shows it alone', async ({ page }) => {
   await page.goto(address)
   await page.getByLabel('Beside it').selectOption('')
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
@@ -71,7 +71,7 @@ test('one policy stays alone for a user with the link', async ({ page }) => {
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
 })
 
-test('the moment is kept by a reload that follows at once', async ({ page }) => {
+test('an immediate reload keeps the time', async ({ page }) => {
   await page.goto(`${address}#policy=prices&with=`)
   const scrubber = page.getByRole('slider', { name: 'Time of the day' })
   await scrubber.focus()
@@ -80,7 +80,7 @@ test('the moment is kept by a reload that follows at once', async ({ page }) => 
   await expect(scrubber).toHaveAttribute('aria-valuetext', /^09:06:01/)
 })
 
-test('a link leads to the moment', async ({ page }) => {
+test('a link opens the same time', async ({ page }) => {
   await page.goto(`${address}#policy=greedy&with=prices&at=08:11:30`)
   await expect(page.getByRole('time')).toHaveText('08:11:30')
   await expect(page.getByLabel('Policy', { exact: true })).toHaveValue('greedy')
@@ -89,7 +89,7 @@ test('a link leads to the moment', async ({ page }) => {
   await expect(page).toHaveURL(/with=prices/)
 })
 
-test('two policies are compared, with where they first differ and what it was worth', async ({ page }) => {
+test('two policies are compared, with their first difference and its effect on profit', async ({ page }) => {
   await page.goto(`${address}#policy=prices&with=`)
   await page.getByLabel('Beside it').selectOption('greedy')
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
@@ -102,7 +102,7 @@ test('two policies are compared, with where they first differ and what it was wo
   await expect(page.getByRole('time')).toHaveText(time)
 })
 
-test('files of a day are chosen, and wrong ones are named', async ({ page, days }) => {
+test('files of a day are opened, and faulty ones are listed', async ({ page, days }) => {
   await page.goto(pathToFileURL('dist/replay.html').href)
   const files = page.getByLabel('Choose files')
   await files.setInputFiles([fixture('tiny-1-greedy.csv')])
@@ -141,7 +141,7 @@ test('files of a day are chosen, and wrong ones are named', async ({ page, days 
   expect(days.folder).not.toBe('')
 })
 
-test('what is selected on a timeline is selected on the map', async ({ page }) => {
+test('a selection on a timeline is selected on the map', async ({ page }) => {
   await page.goto(`${address}#policy=prices&with=&at=07:05:00`)
   await page.getByRole('application', { name: /Timeline of the fleet/ }).focus()
   await page.keyboard.press('ArrowRight')
@@ -150,7 +150,7 @@ test('what is selected on a timeline is selected on the map', async ({ page }) =
   await expect(map.getByText('South → East')).toBeVisible()
 })
 
-test('a report of the program opens from a disk and asks for nothing', async ({ page, days }) => {
+test('a report of the program opens from disk and requests nothing', async ({ page, days }) => {
   days.run('scenario', fixture('tiny.toml'), '--seed', '1', '-o', 'day.json')
   days.run('simulate', 'day.json', '--policy', 'greedy', '--report', 'day.html')
   days.run(
@@ -193,7 +193,7 @@ test('a report of the program opens from a disk and asks for nothing', async ({ 
   expect(asked.filter((one) => !one.startsWith('file:') && !one.startsWith('data:'))).toEqual([])
 })
 
-test('the page carries the notices of those whose work is in it', async ({ page }) => {
+test('the page contains the licence notices of its packages', async ({ page }) => {
   await page.goto(address)
   const notices = await page.locator('#licences').textContent()
   expect(notices).toMatch(/^svelte \d+\.\d+\.\d+, MIT$/m)
@@ -201,7 +201,9 @@ test('the page carries the notices of those whose work is in it', async ({ page 
 })
 
 for (const [name, size] of Object.entries(screens)) {
-  test(`the replay looks as it did, and axe finds nothing serious (${name})`, async ({ page }) => {
+  test(`the replay looks like its screenshot, and axe finds no serious problem (${name})`, async ({
+    page,
+  }) => {
     await page.setViewportSize(size)
     await page.goto(`${address}#policy=prices&with=greedy&at=07:41:00`)
     await expectToLook(page, `replay-${name}`)

@@ -25,7 +25,7 @@ async function open(page: Page, console: string): Promise<void> {
   await expect(page.getByRole('heading', { level: 1, name: 'Studies' })).toBeVisible()
 }
 
-test('a study is made, followed and read', async ({ page, context, program }) => {
+test('a study is started, followed and read', async ({ page, context, program }) => {
   await new Fleet(program.url, '').ask('PUT', '/v1/networks/small', { toml: smallNetwork })
   await open(page, program.console)
   await expect(page.getByText('There is no study yet.')).toBeVisible()
@@ -70,7 +70,7 @@ test('a study is made, followed and read', async ({ page, context, program }) =>
   await expect(page.getByText('There is no study yet.')).toBeVisible()
 })
 
-test('a study that plays can be stopped, and says how far it is', async ({ page, program }) => {
+test('a running study shows its progress and can be stopped', async ({ page, program }) => {
   await open(page, program.console)
   await page.keyboard.press('n')
   const dialog = page.getByRole('dialog')
@@ -84,7 +84,7 @@ test('a study that plays can be stopped, and says how far it is', async ({ page,
   await expect(page.getByText('There is no study yet.')).toBeVisible()
 })
 
-test('what cannot be played is refused with its code', async ({ page, program }) => {
+test('an impossible study is refused with its code', async ({ page, program }) => {
   await open(page, program.console)
   await page.keyboard.press('n')
   const dialog = page.getByRole('dialog')
@@ -111,7 +111,7 @@ test('with a token the report is saved as a file', async ({ page, program }) => 
   await expect(page.getByRole('button', { name: 'New study' })).toBeDisabled()
 })
 
-test('axe finds nothing serious in the studies', async ({ page, program }) => {
+test('axe finds no serious problem in the studies', async ({ page, program }) => {
   await open(page, program.console)
   await expectAccessibleInBoth(page)
   await played(program.url)
@@ -122,7 +122,7 @@ test('axe finds nothing serious in the studies', async ({ page, program }) => {
   await expectAccessibleInBoth(page)
 })
 
-test('studies look as they did', async ({ page, program }) => {
+test('studies look like their screenshots', async ({ page, program }) => {
   await played(program.url)
   for (const screen of ['desk', 'phone'] as const) {
     await page.setViewportSize(screens[screen])

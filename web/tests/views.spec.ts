@@ -7,7 +7,7 @@ import { expect, expectAccessible, expectAccessibleInBoth, open, panel, test, wa
 const views = ['now', 'timeline', 'what-if', 'log', 'replay'] as const
 
 for (const view of views) {
-  test(`axe finds nothing serious in ${view}`, async ({ page, program, fleet }) => {
+  test(`axe finds no serious problem in ${view}`, async ({ page, program, fleet }) => {
     await fleet.decide('A01')
     await open(page, program, fleet, view)
     await expect(page.locator('main')).not.toContainText('Loading')
@@ -15,7 +15,11 @@ for (const view of views) {
   })
 }
 
-test('axe finds nothing serious in the days, the palette and the help', async ({ page, program, fleet }) => {
+test('axe finds no serious problem in the days, the palette and the help', async ({
+  page,
+  program,
+  fleet,
+}) => {
   await page.goto(program.console)
   await expect(page.getByRole('link', { name: /small-2/ })).toHaveAttribute('href', new RegExp(fleet.day))
   await expectAccessibleInBoth(page)
@@ -28,7 +32,7 @@ test('axe finds nothing serious in the days, the palette and the help', async ({
   }
 })
 
-test('views are reached by keys, and the palette does what it says', async ({ page, program, fleet }) => {
+test('views are reached by keys, and the palette runs its commands', async ({ page, program, fleet }) => {
   await open(page, program, fleet)
   await page.keyboard.press('g')
   await page.keyboard.press('l')
@@ -59,7 +63,7 @@ test('single keys can be switched off', async ({ page, program, fleet }) => {
   expect(page.url()).toContain('/now')
 })
 
-test('the skip link leads to the content and not away from the day', async ({ page, program, fleet }) => {
+test('the skip link moves to the content without leaving the day', async ({ page, program, fleet }) => {
   await open(page, program, fleet, 'log')
   await page.keyboard.press('Tab')
   await expect(page.getByRole('link', { name: 'Skip to the content' })).toBeFocused()
@@ -68,7 +72,7 @@ test('the skip link leads to the content and not away from the day', async ({ pa
   expect(page.url()).toContain(fleet.day)
 })
 
-test('a day is made in the console', async ({ page, program, fleet }) => {
+test('a day is created in the console', async ({ page, program, fleet }) => {
   await page.goto(program.console)
   await expect(page.getByRole('link', { name: /small-2/ })).toBeVisible()
   await page.keyboard.press('n')
@@ -80,7 +84,7 @@ test('a day is made in the console', async ({ page, program, fleet }) => {
   expect(page.url()).not.toContain(fleet.day)
 })
 
-test('the list of days says how far each is and who waits', async ({ page, program, fleet }) => {
+test('the list of days shows their progress and waiting aircraft', async ({ page, program, fleet }) => {
   const archived = await Fleet.onSmallDay(program.url)
   await archived.ask('POST', `/v1/days/${archived.day}/archive`)
   await page.goto(program.console)
@@ -104,7 +108,7 @@ test('the list of days says how far each is and who waits', async ({ page, progr
   await expectAccessible(page)
 })
 
-test('an unknown address says that it is', async ({ page, program, fleet }) => {
+test('an unknown address is reported', async ({ page, program, fleet }) => {
   await page.goto(`${program.console}/#/nowhere`)
   await expect(page.getByText('There is no page at this address. This is “Days” instead.')).toBeVisible()
   await page.goto(`${program.console}/#/day/${fleet.day}/nowhere`)
@@ -113,7 +117,7 @@ test('an unknown address says that it is', async ({ page, program, fleet }) => {
   await expect(page.getByText('There is no page at this address')).toHaveCount(0)
 })
 
-test('what an address names and is not there is said in plain words, with a way out', async ({
+test('a missing object in an address is explained, with a link to continue', async ({
   page,
   program,
   fleet,
@@ -132,10 +136,7 @@ test('what an address names and is not there is said in plain words, with a way 
   await expect(page.getByRole('heading', { level: 1, name: 'Studies' })).toBeVisible()
 })
 
-test('networks have the address of their name, and the former one leads there too', async ({
-  page,
-  program,
-}) => {
+test('networks have an address, and the former one still works', async ({ page, program }) => {
   for (const address of ['networks', 'editor']) {
     await page.goto('about:blank')
     await page.goto(`${program.console}/#/${address}`)
@@ -144,7 +145,7 @@ test('networks have the address of their name, and the former one leads there to
   }
 })
 
-test('the log says where departures lead and landings are', async ({ page, program, fleet }) => {
+test('the log contains the places of departures and landings', async ({ page, program, fleet }) => {
   await fleet.decide('A01', { to: 'East', reason: 'a test' })
   await fleet.report(
     { type: 'departed', aircraft: 'A01' },
@@ -156,7 +157,11 @@ test('the log says where departures lead and landings are', async ({ page, progr
   await expect(page.getByRole('cell', { name: 'A01 has departed for East' })).toBeVisible()
 })
 
-test('a what-if compares both rests of the day and can be reported', async ({ page, program, fleet }) => {
+test('a what-if compares both continuations of the day and can be reported', async ({
+  page,
+  program,
+  fleet,
+}) => {
   await open(page, program, fleet, 'what-if')
   await page.getByRole('combobox', { name: 'From' }).selectOption('South')
   await page.getByRole('textbox', { name: /Until/ }).fill('08:00')
@@ -171,7 +176,7 @@ test('a what-if compares both rests of the day and can be reported', async ({ pa
   expect((await fleet.events())[0]?.event).toMatchObject({ type: 'closed', routes: { vertiport: 'South' } })
 })
 
-test('what no system reports is reported by hand', async ({ page, program, fleet }) => {
+test('events can be reported by hand', async ({ page, program, fleet }) => {
   await fleet.decide('A01')
   await open(page, program, fleet)
   await page.keyboard.press('e')
@@ -206,7 +211,7 @@ test('an error of the service is shown with its code and remedy', async ({ page,
   await expect(page.getByRole('alert').getByText(/Error V113/)).toBeVisible()
 })
 
-test('a log of thousands of events has few of them in the page', async ({ page, program, fleet }) => {
+test('a log of thousands of events renders few of them', async ({ page, program, fleet }) => {
   for (let page = 0; page < 5; page++) {
     await fleet.report(
       ...Array.from(
@@ -245,10 +250,7 @@ test('no view is wider than a phone', async ({ page, program, fleet }) => {
   }
 })
 
-test('with reduced motion the clock changes once a second, and when something has happened', async ({
-  page,
-  program,
-}) => {
+test('with reduced motion the clock changes once a second, and at events', async ({ page, program }) => {
   await page.emulateMedia({ reducedMotion: 'reduce' })
   void program.operate(smallNetwork, '--policy', 'prices', '--speed', '300')
   const fleet = await Fleet.onDayOfOthers(program.url)

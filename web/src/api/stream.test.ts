@@ -19,11 +19,11 @@ describe('messages', () => {
     { type: 'message', data: 'c', id: '8' },
   ]
 
-  it('are read from one piece', () => {
+  it('are read from one chunk', () => {
     expect(readInPieces(text, [])).toEqual(messages)
   })
 
-  it('are the same wherever the bytes are cut, within characters too', () => {
+  it('are the same wherever the bytes are split, even inside characters', () => {
     const length = encoder.encode(text).length
     for (let first = 0; first <= length; first++) {
       expect(readInPieces(text, [first]), `cut at ${first}`).toEqual(messages)
@@ -101,7 +101,7 @@ function nothing(): Response {
 }
 
 describe('a stream', () => {
-  it('is taken up again after the last event that came', async () => {
+  it('resumes after the last event', async () => {
     const service = new FakeService([events(4, 5), nothing, events(6)])
     await service.followToTheEnd(markOf(3))
     expect(service.seen).toEqual([4, 5, 6])
@@ -115,7 +115,7 @@ describe('a stream', () => {
     ])
   })
 
-  it('is said to be lost after a while, and still heals', async () => {
+  it('is reported as lost after a while, and still recovers', async () => {
     const service = new FakeService([events(1), ...Array.from({ length: 8 }, () => nothing), events(2)])
     await service.followToTheEnd(undefined)
     expect(service.connections).toContain('lost')
@@ -123,7 +123,7 @@ describe('a stream', () => {
     expect(service.seen).toEqual([1, 2])
   })
 
-  it('ends when the service refuses who asks', async () => {
+  it('ends when the service refuses the user', async () => {
     const service = new FakeService([refusal(401, 'V620'), events(1)])
     void service.followToTheEnd(undefined)
     await new Promise((resume) => setTimeout(resume, 20))
@@ -131,7 +131,7 @@ describe('a stream', () => {
     expect(service.askedAfter).toEqual(['0'])
   })
 
-  it('says when the log is another one than was seen', async () => {
+  it('reports that the log was replaced', async () => {
     const service = new FakeService([refusal(404, 'V631')])
     await service.followToTheEnd(markOf(9))
     expect(service.rewound).toBe(1)

@@ -21,7 +21,7 @@ describe('a camera', () => {
     expect(pixelY(camera, size, 20)).toBeLessThan(pixelY(camera, size, 0))
   })
 
-  it('keeps what is under the pointer there when it zooms', () => {
+  it('keeps the point under the pointer when it zooms', () => {
     const near = zoom(camera, 3, size, 200, 450)
     const there = view(camera, size)
     const x = there.west + 200 / camera.scale

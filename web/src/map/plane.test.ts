@@ -16,12 +16,12 @@ describe('a plane of coordinates', () => {
     expect(box.south + box.north).toBeCloseTo(0, 2)
   })
 
-  it('is measured in miles there', () => {
+  it('is measured in miles at its origin', () => {
     const [x0 = 0, y0 = 0, x1 = 0, y1 = 0] = plane.vertiports
     expect(Math.hypot(x1 - x0, y1 - y0)).toBeCloseTo(geography.distance(0, 1), 2)
   })
 
-  it('leads back to degrees', () => {
+  it('converts back to degrees', () => {
     expect(plane.longitude(plane.x(-73.5))).toBeCloseTo(-73.5, 9)
     expect(plane.latitude(plane.y(41.3))).toBeCloseTo(41.3, 9)
   })
@@ -40,7 +40,7 @@ describe('a plane of miles', () => {
   const places = [{ place: { x_mi: 0, y_mi: 0 } }, { place: { x_mi: 40, y_mi: 10 } }]
   const plane = new Plane(new Geography(places))
 
-  it('is as it is given, around its middle', () => {
+  it('keeps the coordinates, relative to its middle', () => {
     expect([...plane.vertiports]).toEqual([-20, -5, 20, 5])
     expect([plane.longitude(-20), plane.latitude(5)]).toEqual([0, 10])
     expect(plane.milesAt(123)).toBe(1)

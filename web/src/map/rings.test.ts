@@ -30,17 +30,17 @@ describe('the ring of a vertiport', () => {
     pieces.forEach(({ begin }, index) => expect(begin).toBeGreaterThanOrEqual(pieces[index - 1]?.end ?? 0))
   })
 
-  it('shows aircraft for which there is no stand', () => {
+  it('shows aircraft without a stand', () => {
     const { charging, over } = StandState
     expect(states({ [charging]: 3 }, 2)).toEqual([charging, charging, over])
   })
 
-  it('has arcs where pieces would be too small to count', () => {
+  it('has arcs if pieces would be too small to count', () => {
     const { charging, free } = StandState
     expect(states({ [charging]: 10 }, 100)).toEqual([charging, free])
   })
 
-  it('is smaller where vertiports stand close together', () => {
+  it('is smaller if vertiports are close together', () => {
     const network = { room: [10, 10], nearest_mi: [2, 200] }
     expect(radiusOf(network, 0, 10)).toBeLessThan(radiusOf(network, 1, 10))
     expect(radiusOf(network, 0, 0.001)).toBe(4)

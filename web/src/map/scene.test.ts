@@ -17,7 +17,7 @@ function at(clock: string): Scene {
 }
 
 describe('a scene', () => {
-  it('counts every aircraft at one vertiport', () => {
+  it('counts every aircraft at exactly one vertiport', () => {
     const scene = at('07:05:00')
     const stands = scene.room.map((_, one) => scene.counts.standsOf(one))
     expect(stands).toEqual([
@@ -28,7 +28,7 @@ describe('a scene', () => {
     expect(scene.aircraftAt(0).map(({ aircraft }) => aircraft)).toEqual([1, 2])
   })
 
-  it('knows where aircraft go, and that those that stand go nowhere', () => {
+  it('has destinations of flights, and none of standing aircraft', () => {
     const scene = at('07:15:30')
     expect(scene.destination(0)).toBe(NONE)
     expect(scene.origin(0)).toBe(NONE)
@@ -37,13 +37,13 @@ describe('a scene', () => {
     expect(at('07:26:00').load(1)).toBe(0.25)
   })
 
-  it('knows what is closed', () => {
+  it('contains closures', () => {
     expect(at('07:29:59').closures).toHaveLength(0)
     expect(at('07:30:00').closures).toHaveLength(2)
     expect(at('08:00:00').closures).toHaveLength(0)
   })
 
-  it('changes its revision only when something other than places has changed', () => {
+  it('changes its revision only when more than positions have changed', () => {
     const scene = at('07:05:00')
     const before = scene.revision
     scene.show(timeOf('07:06:00'))
@@ -52,7 +52,7 @@ describe('a scene', () => {
     expect(scene.revision).toBeGreaterThan(before)
   })
 
-  it('shows who waits as it is told, if it is told', () => {
+  it('shows the given waiting passengers, if there are any', () => {
     const scene = at('07:05:00')
     scene.show(timeOf('07:05:00'), [{ from: 0, to: 1, passengers: 3 }])
     expect(scene.pairs).toEqual([{ from: 0, to: 1, passengers: 3 }])
@@ -69,7 +69,7 @@ describe('the pointer', () => {
     expect(pick(viewpoint, { x: 1, y: 1 })).toBeUndefined()
   })
 
-  it('finds a delayed aircraft beside its vertiport, on the side of its destination', () => {
+  it('finds a delayed aircraft next to its vertiport, on the side of its destination', () => {
     const [place, vertiport, destination] = [
       aircraftPixel(viewpoint, 1),
       vertiportPixel(viewpoint, 1),

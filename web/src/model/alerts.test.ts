@@ -52,7 +52,7 @@ function alerts(given: Given, time = SEVEN): Alert[] {
 }
 
 describe('alerts', () => {
-  it('are none on a day on which all goes as it should', () => {
+  it('are absent on an undisturbed day', () => {
     const flight = leg({ awaited: { report: 'landing', due: SEVEN + 600 } })
     expect(alerts({ legs: [flight], taken: [5, 2, 0] })).toEqual([])
   })
@@ -69,7 +69,7 @@ describe('alerts', () => {
     })
   })
 
-  it('tell a full vertiport from one with more aircraft than stands', () => {
+  it('distinguish a full vertiport from one with more aircraft than stands', () => {
     const found = alerts({ taken: [6, 7, 5] })
     expect(found.map(({ key, severity }) => [key, severity])).toEqual([
       ['over_full V2', 'critical'],
@@ -98,7 +98,7 @@ describe('alerts', () => {
     ])
   })
 
-  it('repeat what came with an event, and of now only what no other alert is about', () => {
+  it('include notices of events, and current notices only if no other alert covers them', () => {
     const notices = [
       { seq: 4, text: 'aircraft "A02" landed at "V1" instead of "V3"' },
       { seq: null, text: 'vertiport "V1" has 7 aircraft on its 6 stands or on their way there' },
@@ -116,7 +116,7 @@ describe('alerts', () => {
   })
 })
 
-it('alerts of the same thing are one', () => {
+it('alerts about the same subject are one', () => {
   const closure = { from: 0, to: 1, since: SEVEN - 60, until: SEVEN + 60 }
   expect(alerts({ closures: [closure, closure] })).toHaveLength(1)
 })

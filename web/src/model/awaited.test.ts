@@ -76,7 +76,7 @@ describe('a landing that is not reported', () => {
     expect(record.legs.filter((leg) => leg.awaited !== undefined)).toHaveLength(2)
   })
 
-  it('is at the later of planned and now, and the aircraft is ready as much later', () => {
+  it('is at the later of planned and now, and delays the time when the aircraft is ready', () => {
     const early = recordAt(record, timeOf('06:50:00'))
     expect(underWay(early, a02)).toMatchObject({ arrives: timeOf('06:54:06'), ready: timeOf('07:18:48') })
     const leg = underWay(recordAt(record, late), a02)
@@ -95,14 +95,14 @@ describe('a landing that is not reported', () => {
     expect(shown(late, a02).lift).toBeGreaterThan(0.3)
   })
 
-  it('moves the aircraft on without a jump', () => {
+  it('moves the aircraft without a jump', () => {
     const place = (time: number) => shown(time, a02).place
     for (let time = timeOf('06:45:00'); time < timeOf('07:10:00'); time += 10) {
       expect(distance(place(time), place(time + 10))).toBeLessThan(0.25)
     }
   })
 
-  it('is overdue more than five minutes after it was due, as the service has it', () => {
+  it('is overdue more than five minutes after it was due, as in the service', () => {
     expect(shown(timeOf('06:58:00'), a02).overdue_min).toBe(0)
     expect(shown(timeOf('07:00:00'), a02).overdue_min).toBe(5)
     expect(shown(late, a02).overdue_min).toBe(20)
@@ -113,7 +113,7 @@ describe('a landing that is not reported', () => {
     expect(shown(timeOf('08:30:00'), a02).charge).toBeCloseTo(shown(timeOf('06:54:06'), a02).charge, 6)
   })
 
-  it('is over with the report, also before the state is read again', () => {
+  it('ends with the report, even before the state is read again', () => {
     const landed = recordAfter({ type: 'landed', aircraft: 'A02', time: '07:12:00' })
     const leg = underWay(landed, a02)
     expect(leg.awaited).toBeUndefined()
@@ -140,7 +140,7 @@ describe('a departure that is not reported', () => {
     })
   })
 
-  it('is over with the report, and the landing is awaited then', () => {
+  it('ends with the report, after which the landing is awaited', () => {
     const departed = recordAfter({ type: 'departed', aircraft: 'A03', time: '06:48:00' })
     expect(underWay(departed, a03).awaited?.report).toBe('landing')
     const after = { ...departed, legs: departed.legs.filter((one) => !one.is_expected) }
@@ -157,11 +157,11 @@ describe('a departure that is not reported', () => {
 describe('a day on which several reports are late', () => {
   const day = recordAt(record, late)
 
-  it('stays as it is while nothing is due', () => {
+  it('is unchanged while nothing is due', () => {
     expect(recordAt(record, timeOf('06:47:00'))).toBe(record)
   })
 
-  it('does not let what is expected begin before it can', () => {
+  it('does not start expected legs before they can start', () => {
     for (const aircraft of [a02, a03]) {
       const { ready } = underWay(day, aircraft)
       // The same routes, at the same intervals.
@@ -175,11 +175,11 @@ describe('a day on which several reports are late', () => {
     )
   })
 
-  it('can be brought up to date minute by minute', () => {
+  it('can be updated minute by minute', () => {
     expect(recordAt(recordAt(record, timeOf('07:05:00')), late).legs).toEqual(day.legs)
   })
 
-  it('is counted once, and in the air', () => {
+  it('counts an overdue aircraft once, and in the air', () => {
     const [fleet, counts] = [new Fleet(happened), new Counts(happened)]
     const frame = fleet.frame()
     fleet.show(late, frame)
@@ -195,7 +195,7 @@ describe('a day on which several reports are late', () => {
     expect(counts.revision).toBe(revision)
   })
 
-  it('has nothing in its timelines before now that was not reported', () => {
+  it('has no unreported events before now in its timelines', () => {
     const endOf = ({ kind, ends }: Bar) => `${kind} ${clock(ends)}`
     const rows = fleetRows(day)
     expect(rows[a02]?.bars.slice(1, 3).map(endOf)).toEqual(['flight 07:15:00', 'charge 07:39:42'])
@@ -217,7 +217,7 @@ describe('a day on which several reports are late', () => {
     expect(next[0]?.leg.decided).toBe(timeOf('07:39:42'))
   })
 
-  it('is as late in another course of the day', () => {
+  it('has the same delays in another course of the day', () => {
     const course = { ...record, legs: record.legs.map(withoutReport) }
     expect(recordAt(awaitedLike(course, record), late)).toEqual(day)
   })

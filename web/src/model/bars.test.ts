@@ -24,7 +24,7 @@ function shown({ kind, begins, ends }: Bar): string {
 describe('rows of the fleet', () => {
   const rows = fleetRows(prices())
 
-  it('show what an aircraft does without a gap', () => {
+  it('show the activity of an aircraft without a gap', () => {
     expect(rows[1]?.bars.slice(0, 4).map(shown)).toEqual([
       'delay 07:00:00-07:04:33',
       'flight 07:04:33-07:15:14',
@@ -34,12 +34,12 @@ describe('rows of the fleet', () => {
     expect(rows[0]?.bars.filter((bar) => bar.kind === 'hold').map(shown)[0]).toBe('hold 07:47:28-07:57:28')
   })
 
-  it('show outages apart, and plans where something else has come of them', () => {
+  it('show outages separately, and plans of flights that went differently', () => {
     expect(rows[1]?.outages.map(shown)).toEqual(['outage 07:40:21-08:11:55'])
     expect(rows[1]?.plans.map((plan) => clock(plan.ready))).toEqual(['07:18:56', '08:02:43'])
   })
 
-  it('say how full a flight is', () => {
+  it('show the load factor of a flight', () => {
     expect(rows[1]?.bars.filter((bar) => bar.kind === 'flight').map((bar) => bar.load)).toEqual([
       1, 0.25, 0.5, 0.75, 1,
     ])
@@ -50,7 +50,7 @@ describe('rows of stands', () => {
   const record = greedy()
   const rows = standRows(record)
 
-  it('are as many as there are stands', () => {
+  it('include every stand', () => {
     expect(rows.map(({ vertiport, stand }) => `${vertiport}.${stand}`)).toEqual([
       '0.0',
       '0.1',
@@ -82,18 +82,18 @@ describe('rows of stands', () => {
     }
   })
 
-  it('show that an aircraft is out of service where it stands', () => {
+  it('show the outage of an aircraft at its stand', () => {
     const outages = standRows(prices()).flatMap((row) => row.outages)
     expect(outages.map(shown)).toContain('outage 07:54:05-08:11:55')
   })
 
-  it('become more than there are stands if more aircraft are there', () => {
+  it('exceed the stands if more aircraft are there', () => {
     const crowded = { ...record, vertiports: record.vertiports.map((one) => ({ ...one, stands: 1 })) }
     expect(standRows(crowded).some((row) => row.isOver)).toBe(true)
   })
 })
 
-it('counts chargers beside stands', () => {
+it('counts chargers separately from stands', () => {
   expect(roomOf({ stands: 2, chargers: 3 })).toBe(5)
 })
 

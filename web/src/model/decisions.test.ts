@@ -67,7 +67,7 @@ function there(ready: string) {
   return { arrival: '06:45:00', ready, stands: 6, stands_taken: 4 }
 }
 
-describe('those who wait', () => {
+describe('waiting aircraft', () => {
   it('are in the order in which they became ready, at full vertiports first', () => {
     expect(waitingOf(state).map((one) => one.id)).toEqual(['A05'])
     const all = {
@@ -77,7 +77,7 @@ describe('those who wait', () => {
     expect(waitingOf(all).map((one) => one.isFull)).toEqual([true, true, false, false, false])
   })
 
-  it('are followed by those who are ready next', () => {
+  it('are followed by the aircraft that are ready next', () => {
     expect(nextOf(state, 2).map((one) => one.id)).toEqual(['A01', 'A02'])
     const evening = { ...state, now: '07:10:00' }
     expect(nextOf(evening, 2).map((one) => one.id)).toEqual(['A02', 'A03'])
@@ -85,7 +85,7 @@ describe('those who wait', () => {
   })
 })
 
-it('an aircraft that has been decided since the state is not expected to decide', () => {
+it('an aircraft decided after the state has no expected decision', () => {
   const taken = (seq: number, event: object) => ({ seq, event }) as TakenEvent
   const since = decidedSince(
     [
@@ -113,13 +113,13 @@ it('a list keeps its order while it is held', () => {
 })
 
 describe('a proposal', () => {
-  it('ranks what is possible by its worth, what has none last', () => {
+  it('ranks possible choices by worth, those without a worth last', () => {
     const { possible, impossible } = ranked(proposal)
     expect(possible.map((one) => one.to)).toEqual(['V2', 'V1', 'V4', 'V5'])
     expect(impossible.map((one) => one.to)).toEqual(['V3'])
   })
 
-  it('has worths where the policy has prices, and what it compares by otherwise', () => {
+  it('has worths if the policy has prices, and the values it compares otherwise', () => {
     const unpriced = {
       ...proposal,
       policy: 'mlp-paper',
@@ -130,7 +130,7 @@ describe('a proposal', () => {
     expect(kindOfNumber({ ...unpriced, policy: 'greedy' })).toBe('dollars_per_hour')
   })
 
-  it('ranks every choice by its worth where the policy considered few, and keeps what it made of them', () => {
+  it('ranks every choice by worth if the policy considered few, and keeps its values', () => {
     const considered = new Set(['V4', 'V1'])
     const alternatives = proposal.alternatives.map((one) => ({
       ...one,
@@ -143,7 +143,7 @@ describe('a proposal', () => {
     expect(third && worthOf(third)?.value_usd).toBeCloseTo(857.61)
   })
 
-  it('advises the same as long as the choice, its rank and the rules are the same', () => {
+  it('is the same advice while the choice, its rank and the rules are the same', () => {
     const changed = (to: string, more: object) => ({
       ...proposal,
       alternatives: proposal.alternatives.map((one) => (one.to === to ? { ...one, ...more } : one)),
@@ -167,8 +167,8 @@ describe('a proposal', () => {
   })
 })
 
-describe('decisions of late', () => {
-  it('are told from the newest on, without those that were undone', () => {
+describe('latest decisions', () => {
+  it('are listed newest first, without undone ones', () => {
     const decided = decidedLately(events, 10)
     expect(decided.map((one) => `${one.aircraft} ${one.to}`)).toEqual([
       'A03 North',
@@ -183,7 +183,7 @@ describe('decisions of late', () => {
     })
   })
 
-  it('can be undone while nothing has happened since', () => {
+  it('can be undone until the next event of the aircraft', () => {
     expect(decidedLately(events, 10).map((one) => one.canBeUndone)).toEqual([true, false, false, false])
     expect(canBeTakenBack(events, 'A03', 16)).toBe(true)
     expect(canBeTakenBack(events, 'A01', 1)).toBe(false)

@@ -11,7 +11,7 @@ function changed(record: DayRecord, position: number, more: Partial<LegRecord>):
 }
 
 describe('the first difference', () => {
-  it('is a decision, and has its worth', () => {
+  it('is a decision, with its difference in profit', () => {
     const difference = firstDifference(greedy(), prices())
     expect(difference).toBeDefined()
     const { one, other, time = 0, atDecision_usd, atEnd_usd } = difference ?? {}
@@ -23,18 +23,18 @@ describe('the first difference', () => {
     expect(atEnd_usd).toBeCloseTo(3142.4 - 2860.02, 1)
   })
 
-  it('is none between a day and itself', () => {
+  it('is absent between a day and itself', () => {
     expect(firstDifference(prices(), prices())).toBeUndefined()
   })
 
-  it('is the end of one day where it ends earlier', () => {
+  it('is the end of one day if it ends earlier', () => {
     const whole = prices()
     const cut = { ...whole, legs: whole.legs.slice(0, 5) }
     expect(firstDifference(cut, whole)).toMatchObject({ one: undefined, other: whole.legs[5] })
     expect(firstDifference(cut, whole)?.time).toBe(whole.legs[5]?.decided)
   })
 
-  it('is not that people decide later, and in another order', () => {
+  it('ignores later decisions and another order of decisions', () => {
     const record = prices()
     const [first, second, ...more] = changed(record, 0, { decided: 25_230 }).legs
     if (first === undefined || second === undefined) throw new Error('the day has legs')
@@ -43,12 +43,12 @@ describe('the first difference', () => {
 })
 
 describe('differences', () => {
-  it('are none between a day and itself', () => {
+  it('are absent between a day and itself', () => {
     const { one, other, first } = differences(prices(), prices())
     expect([one.size, other.size, first]).toEqual([0, 0, undefined])
   })
 
-  it('are the legs that the other day does not have, and what is there instead', () => {
+  it('are the legs that the other day lacks, with their counterparts', () => {
     const record = prices()
     const [flight] = record.legs
     const { one, other, first } = differences(record, changed(record, 0, { to: flight?.from ?? 0 }))
@@ -58,7 +58,7 @@ describe('differences', () => {
     expect(first).toMatchObject({ time: flight?.decided, one: flight })
   })
 
-  it('are other times and other loads too, and no seconds', () => {
+  it('include other times and loads, but not seconds', () => {
     const record = prices()
     const leg = record.legs[3]
     if (leg === undefined) throw new Error('the day has legs')
@@ -78,7 +78,7 @@ describe('differences', () => {
     expect(differing({ decided: leg.decided + 30 })).toEqual([])
   })
 
-  it('of an aircraft that only one day has are with nothing', () => {
+  it('of an aircraft on only one day have no counterpart', () => {
     const record = prices()
     const fewer = { ...record, legs: record.legs.filter((leg) => leg.aircraft !== 2) }
     const { one, other } = differences(record, fewer)

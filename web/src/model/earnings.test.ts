@@ -25,7 +25,7 @@ it('a flight counts from its decision on', () => {
   expect(earnings.at(timeOf('10:00:00'))).toMatchObject({ flights: 14, holds: 6 })
 })
 
-it('every passenger is carried in a period', () => {
+it('every passenger is counted in one period', () => {
   const periods = demandByPeriod(record)
   expect(periods.map(({ begins }) => begins)).toEqual([timeOf('07:00:00'), timeOf('08:00:00')])
   expect(periods.reduce((sum, { carried }) => sum + carried, 0)).toBe(earnings.at(Infinity).passengers)

@@ -20,7 +20,7 @@ function along(geography: Geography, share: number): { place: number[]; heading:
 describe('in the plane', () => {
   const geography = new Geography([place(0, 0), place(30, 40)])
 
-  it('ways are straight lines', () => {
+  it('routes are straight lines', () => {
     expect(geography.isGlobe).toBe(false)
     expect(geography.distance(0, 1)).toBe(50)
     expect(along(geography, 0.5).place).toEqual([15, 20])
@@ -39,7 +39,7 @@ describe('on the globe', () => {
     expect(far.distance(0, 1)).toBeCloseTo(3442.3, 1)
   })
 
-  it('ways begin and end at their vertiports', () => {
+  it('routes begin and end at their vertiports', () => {
     expect(along(near, 0).place[0]).toBeCloseTo(-74.17, 9)
     expect(along(near, 1).place[1]).toBeCloseTo(40.64, 9)
   })
@@ -50,7 +50,7 @@ describe('on the globe', () => {
     expect(along(far, 0.5).place[1]).toBeGreaterThan(51.47)
   })
 
-  it('a place is no way', () => {
+  it('a route to the same place has no length', () => {
     const same = new Geography([place(0, 0, 40, -74), place(0, 0, 40, -74)])
     expect(along(same, 0.5).place[0]).toBeCloseTo(-74, 9)
   })

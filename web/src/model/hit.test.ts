@@ -30,7 +30,7 @@ function record(...legs: LegRecord[]): DayRecord {
   } as unknown as DayRecord
 }
 
-it('equal rests of a day affect no one for two hours', () => {
+it('equal continuations of a day have no impact', () => {
   const asItIs = record(leg(0, 1, 5), leg(1, 2, 10, { is_expected: false }), leg(0, 1, 130))
   const whatIf = record(leg(0, 1, 5), leg(1, 1, 10, { is_expected: false }), leg(0, 2, 130))
   const hit = hitOf(asItIs, whatIf, NOW)
@@ -43,7 +43,7 @@ it('equal rests of a day affect no one for two hours', () => {
   })
 })
 
-it('those are hit who are sent elsewhere, with their passengers and the places', () => {
+it('aircraft with other destinations are affected, with their passengers and vertiports', () => {
   const asItIs = record(leg(0, 1, 5), leg(1, 2, 10), leg(2, 1, 20, { passengers: 3 }))
   const whatIf = record(leg(0, 1, 6), leg(1, 0, 10, { passengers: 0 }), leg(2, 2, 15, { passengers: 3 }))
   const hit = hitOf(asItIs, whatIf, NOW)
@@ -57,12 +57,12 @@ it('those are hit who are sent elsewhere, with their passengers and the places',
   expect(hit.places).toEqual([{ id: 'V2', more: -1 }])
 })
 
-it('an aircraft that does nothing more in one of the rests is hit', () => {
+it('an aircraft without further legs in one continuation is affected', () => {
   const hit = hitOf(record(leg(0, 1, 5), leg(0, 2, 60)), record(leg(0, 1, 5)), NOW)
   expect(hit.aircraft).toMatchObject([{ id: 'A01', asItIs: { to: 2 }, whatIf: undefined }])
 })
 
-it('a leg that moves over the end of the two hours affects no one', () => {
+it('a leg that moves across the end of the two hours has no impact', () => {
   const hit = hitOf(record(leg(0, 1, 5), leg(0, 2, 119)), record(leg(0, 1, 5), leg(0, 2, 121)), NOW)
   expect(hit.aircraft).toEqual([])
 })

@@ -3,7 +3,7 @@ import { isCharacter, keyOf, Sequence } from './keys'
 
 const plain = { ctrlKey: false, metaKey: false, altKey: false }
 
-it('names keys as people write them', () => {
+it('names keys in text form', () => {
   expect(keyOf({ ...plain, key: 'a' })).toBe('a')
   expect(keyOf({ ...plain, key: '?' })).toBe('?')
   expect(keyOf({ ...plain, key: ' ' })).toBe('Space')
@@ -11,12 +11,12 @@ it('names keys as people write them', () => {
   expect(keyOf({ ...plain, key: 'Shift' })).toBeUndefined()
 })
 
-it('tells characters from other keys', () => {
+it('distinguishes characters from other keys', () => {
   expect(['a', '?', 'g n'].every(isCharacter)).toBe(true)
   expect(['Enter', 'Mod+k', 'Space'].some(isCharacter)).toBe(false)
 })
 
-it('takes two keys in a short time together', () => {
+it('combines two keys within a short time', () => {
   const sequence = new Sequence()
   expect(sequence.press('g', 0)).toEqual(['g'])
   expect(sequence.press('n', 500)).toEqual(['g n', 'n'])

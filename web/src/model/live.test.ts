@@ -21,7 +21,7 @@ describe('the record of a live day', () => {
     )
   })
 
-  it('has what was reported in the place of what was planned', () => {
+  it('replaces plans by reports', () => {
     const [late] = taken(a02)
     expect(late).toMatchObject({
       from: north,
@@ -36,7 +36,7 @@ describe('the record of a live day', () => {
     expect(landed?.planned?.arrives).toBe(timeOf('06:41:40'))
   })
 
-  it('knows holds, and nothing of decisions that were taken back', () => {
+  it('contains holds, but no undone decisions', () => {
     const [hold, flight] = taken(a03)
     expect(hold !== undefined && isHold(hold)).toBe(true)
     expect(flight).toMatchObject({ from: east, to: north, departs: timeOf('06:47:00') })
@@ -45,7 +45,7 @@ describe('the record of a live day', () => {
     expect(taken(a05)).toHaveLength(0)
   })
 
-  it('shows flights of which only the state knows', () => {
+  it('contains flights that are only in the state', () => {
     const { legs } = recordAfter(events, null)
     expect(legs.map((leg) => [leg.aircraft, leg.to, leg.departs])).toEqual([
       [a02, south, timeOf('06:11:30')],
@@ -53,7 +53,7 @@ describe('the record of a live day', () => {
     ])
   })
 
-  it('has what had been flown before there is an outlook', () => {
+  it('contains past flights before there is an outlook', () => {
     const flown = record.legs.filter((leg) => !leg.is_expected)
     const early = recordAfter(events, null, flown)
     expect(early.legs.map(({ decided, aircraft }) => [decided, aircraft])).toEqual(
@@ -61,7 +61,7 @@ describe('the record of a live day', () => {
     )
   })
 
-  it('drops what an older outlook expected of an aircraft that was sent off since', () => {
+  it('drops expected legs of an aircraft that was decided after the outlook', () => {
     const older: Outlook = {
       ...outlook,
       legs: outlook.legs.filter((leg) => !(leg.aircraft === 'A03' && leg.is_taken)),
@@ -71,7 +71,7 @@ describe('the record of a live day', () => {
     expect(legs.slice(1).every((leg) => leg.decided >= timeOf('07:52:21'))).toBe(true)
   })
 
-  it('forgets a flight that was taken back before there is another outlook', () => {
+  it('drops an undone flight before there is another outlook', () => {
     const undone: DayState = {
       ...state,
       aircraft: state.aircraft.map((one) =>
@@ -88,13 +88,13 @@ describe('the record of a live day', () => {
     expect(isSentOff(undone)).toBe(false)
   })
 
-  it('knows who is out of service, and until when', () => {
+  it('contains outages with their ends', () => {
     expect(record.outages).toEqual([
       { aircraft: a04, since: timeOf('06:13:00'), until: timeOf('07:30:00'), reason: 'bird strike' },
     ])
   })
 
-  it('takes a closed vertiport apart when one of its routes opens', () => {
+  it('splits a closed vertiport when one of its routes opens', () => {
     expect(recordAfter(events.slice(0, 10)).closures).toEqual([
       { vertiport: south, since: timeOf('06:20:00'), until: timeOf('08:00:00'), reason: 'fog' },
     ])
@@ -105,7 +105,7 @@ describe('the record of a live day', () => {
     expect(routes.sort()).toEqual([`${north}-${south}`, `${east}-${south}`, `${south}-${east}`].sort())
   })
 
-  it('counts those who were carried before demand was reported', () => {
+  it('counts passengers carried before a demand report', () => {
     expect(scenario.demand[0]?.[north]?.[east]).toBe(5)
     expect(record.demand?.passengers[0]?.[north]?.[east]).toBe(5 + 4)
     expect(record.demand?.passengers[1]?.[south]?.[north]).toBe(

@@ -11,11 +11,11 @@ const wanted = (filter: Partial<LogFilter>) =>
   events.filter((one) => isWanted(one, { ...everything, ...filter }, said)).map((one) => one.seq)
 
 describe('the log', () => {
-  it('has everything as long as nothing is looked for', () => {
+  it('contains everything without a filter', () => {
     expect(wanted({})).toHaveLength(events.length)
   })
 
-  it('is filtered by what happened, to which aircraft, and where', () => {
+  it('is filtered by type, aircraft and vertiport', () => {
     expect(wanted({ type: 'undone' })).toEqual([7])
     expect(wanted({ aircraft: 'A04' })).toEqual([9])
     expect(wanted({ vertiport: 'South' })).toEqual([3, 10, 11, 14, 15])
@@ -24,13 +24,13 @@ describe('the log', () => {
     expect(wanted({ actor: 'another' })).toEqual([])
   })
 
-  it('finds every word of a text, wherever it stands', () => {
+  it('finds all words of a text in any order', () => {
     expect(wanted({ text: 'FOG closed' })).toEqual([10])
     expect(wanted({ text: 'fog' })).toEqual([8, 10])
   })
 })
 
-it('every type of event can be looked for, and says where it was', () => {
+it('every type of event can be searched, with its vertiports', () => {
   for (const { event } of events) {
     expect(eventTypes).toContain(event.type)
     expect(Array.isArray(vertiportsOf(event))).toBe(true)

@@ -44,7 +44,7 @@ describe('an aircraft', () => {
     expect(at('07:04:34', 1).phase).toBe(Phase.flying)
   })
 
-  it('charges after arrival what the flight took, and is full when it is ready', () => {
+  it('recharges the energy of the flight after arrival, and is full when it is ready', () => {
     const arrived = at('07:10:52', 0)
     expect(arrived).toMatchObject({ phase: Phase.charging, stands: 1 })
     expect(arrived.charge).toBeCloseTo(1 - 24.05 / 140, 3)
@@ -52,7 +52,7 @@ describe('an aircraft', () => {
     expect(at('07:19:20', 0).charge).toBeCloseTo(1, 2)
   })
 
-  it('holds until it is asked again', () => {
+  it('holds until its next decision', () => {
     expect(at('07:50:00', 0)).toMatchObject({ phase: Phase.holding, stands: 2 })
     expect(at('07:50:00', 0).charge).toBeCloseTo(1, 3)
   })
@@ -94,14 +94,14 @@ describe('the share of the way', () => {
     expect(shares).toEqual([0, 1 / 32, 1 / 8, 1 / 2, 7 / 8, 31 / 32, 1])
   })
 
-  it('is whole for a flight without a way between its ends', () => {
+  it('is defined for flights shorter than take-off and landing', () => {
     expect(shareOfWay(0, 0, 120, 120)).toBe(1)
     expect(shareOfWay(50, 50, 120, 120)).toBe(0.5)
     expect(shareOfWay(30, 70, 0, 0)).toBe(0.3)
   })
 })
 
-it('gives the legs of an aircraft in the order of time', () => {
+it('returns the legs of an aircraft in chronological order', () => {
   const decided = [...fleet.legsOf(0)].map((leg) => record.legs[leg]?.decided)
   expect(decided).toHaveLength(8)
   expect(decided).toEqual([...decided].sort((one, other) => (one ?? 0) - (other ?? 0)))

@@ -24,7 +24,7 @@ describe('a day', () => {
     expect(isOver({ now: '09:50:00', aircraft: [standing('10:00:00')] }, end)).toBe(false)
   })
 
-  it('is not over while an aircraft is on its way', () => {
+  it('is not over while an aircraft is in the air', () => {
     for (const phase of ['sent_off', 'in_the_air'] as const)
       expect(isOver({ now: '10:30:00', aircraft: [standing('11:00:00', { phase })] }, end)).toBe(false)
   })
@@ -33,18 +33,18 @@ describe('a day', () => {
 describe('a decision', () => {
   const flying = standing('11:00:00', { id: 'A02', phase: 'in_the_air' })
 
-  it('can be taken anew until the end of operations', () => {
+  it('can be replaced until the end of operations', () => {
     const held = standing('09:45:00')
     expect(canBeDecidedAnew({ now: '09:30:00', aircraft: [held, flying] }, held, end)).toBe(true)
     expect(canBeDecidedAnew({ now: '10:00:01', aircraft: [held, flying] }, held, end)).toBe(false)
   })
 
-  it('to fly can be called off later too, as long as the aircraft has not departed', () => {
+  it('to fly can be cancelled later too, until the aircraft departs', () => {
     const sentOff = standing('11:00:00', { phase: 'sent_off' })
     expect(canBeDecidedAnew({ now: '10:00:01', aircraft: [sentOff] }, sentOff, end)).toBe(true)
   })
 
-  it('is not taken anew when the day is over, nor while the aircraft waits', () => {
+  it('cannot be replaced when the day is over, nor while the aircraft waits', () => {
     const held = standing('10:05:00')
     expect(canBeDecidedAnew({ now: '09:50:00', aircraft: [held] }, held, end)).toBe(false)
     const waits = standing('09:30:00', { needs_decision: true })

@@ -16,7 +16,7 @@ describe('the clock of a day', () => {
     expect(pace.at(60_000)).toBe(21_600)
   })
 
-  it('goes on between events at the speed that was observed', () => {
+  it('runs between events at the observed speed', () => {
     const pace = new Pace()
     for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
     expect(pace.speed).toBeCloseTo(60)
@@ -24,7 +24,7 @@ describe('the clock of a day', () => {
     expect(pace.at(10_500)).toBeCloseTo(22_230, -1)
   })
 
-  it('stands still on a simulated day while aircraft wait for people', () => {
+  it('stands still on a simulated day while aircraft wait for decisions', () => {
     const pace = new Pace()
     for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
     expect(pace.at(10_900)).toBeGreaterThan(22_200)
@@ -36,7 +36,7 @@ describe('the clock of a day', () => {
     expect(pace.at(30_500)).toBeGreaterThan(22_200)
   })
 
-  it('goes on while aircraft wait on a day that happens', () => {
+  it('runs on while aircraft wait on a real day', () => {
     const pace = new Pace()
     for (let second = 0; second <= 10; second++) pace.hear(21_600 + second, 1000 * second)
     pace.isAwaited = true
@@ -69,7 +69,7 @@ describe('the clock of a day', () => {
     expect(pace.isStill(60_000)).toBe(false)
   })
 
-  it('goes back to the latest known time on a simulated day of which nothing more is heard', () => {
+  it('goes back to the latest known time if a simulated day falls silent', () => {
     const pace = new Pace()
     for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
     pace.at(10_000)
@@ -84,7 +84,7 @@ describe('the clock of a day', () => {
     expect(pace.at(20_000)).toBeGreaterThan(22_200)
   })
 
-  it('never runs far ahead of a simulated day that waits for people', () => {
+  it('never runs far ahead of a simulated day that waits for decisions', () => {
     const pace = new Pace()
     for (let second = 0; second <= 10; second++) pace.hear(21_600 + 500 * second, 1000 * second)
     pace.at(10_000)
@@ -101,7 +101,7 @@ describe('the clock of a day', () => {
     expect(pace.speed).toBe(0)
   })
 
-  it('jumps when a person comes back to a page that slept', () => {
+  it('jumps when the user returns to a suspended page', () => {
     const pace = new Pace()
     for (let second = 0; second <= 10; second++) pace.hear(21_600 + second, 1000 * second)
     pace.at(10_000)

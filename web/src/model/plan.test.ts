@@ -31,17 +31,17 @@ describe('a plan of the morning', () => {
     expect(names.map((one) => one?.id)).toEqual([first.aircraft, first.from, first.to])
   })
 
-  it('adds up to what the service says the day would earn', () => {
+  it('adds up to the service’s expected profit', () => {
     const legs_usd = record.legs.reduce((sum, leg) => sum + leg.profit_usd, 0)
     expect(legs_usd).toBeCloseTo(plan.totals.profit_usd, 2)
   })
 
-  it('knows of nothing that was reported, and wants the passengers of the forecast', () => {
+  it('contains no reports, and has the forecast demand', () => {
     expect(record.outages).toEqual([])
     expect(record.demand?.passengers).toEqual(scenario.forecast ?? scenario.demand)
   })
 
-  it('is shown as far as the day has come', () => {
+  it('is cut off at the current time of the day', () => {
     const until = record.legs[5]?.decided ?? 0
     const cut = recordOfPlan(scenario, plan, until)
     expect(cut.legs.length).toBeGreaterThan(5)

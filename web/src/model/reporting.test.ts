@@ -3,8 +3,8 @@ import { eventOf, fieldsOf, reportKinds, type EventFields } from './reporting'
 
 const fields: EventFields = { aircraft: 'A01', from: 'V1', to: '', until: '12:30', number: 3 }
 
-describe('an event that is filled in', () => {
-  it('has what its kind needs and nothing else', () => {
+describe('an event from the form', () => {
+  it('has exactly the fields of its kind', () => {
     expect(eventOf('departed', fields)).toEqual({ type: 'departed', aircraft: 'A01' })
     expect(eventOf('delayed', fields)).toEqual({ type: 'delayed', aircraft: 'A01', until: '12:30:00' })
     expect(eventOf('closed', fields)).toEqual({
@@ -19,7 +19,7 @@ describe('an event that is filled in', () => {
     expect(eventOf('stands', fields)).toEqual({ type: 'stands', vertiport: 'V1', stands: 3 })
   })
 
-  it('is none without a time where there has to be one, or with a time that is none', () => {
+  it('is undefined if a required time is missing or invalid', () => {
     expect(eventOf('delayed', { ...fields, until: '' })).toBeUndefined()
     expect(eventOf('out_of_service', { ...fields, until: 'noon' })).toBeUndefined()
     expect(eventOf('out_of_service', { ...fields, until: '' })).toEqual({

@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { hashOf, home, parseRoute, type Route } from './route'
 
-it('comes back from the hash that it makes', () => {
+it('survives a round trip through its hash', () => {
   const routes: Route[] = [
     home,
     { view: 'networks', params: { network: 'new-york' } },
@@ -12,18 +12,18 @@ it('comes back from the hash that it makes', () => {
   for (const route of routes) expect(parseRoute(hashOf(route))).toEqual(route)
 })
 
-it('still knows the address that networks had before', () => {
+it('accepts the former address of the networks', () => {
   expect(parseRoute('#/editor?network=new-york')).toEqual({
     view: 'networks',
     params: { network: 'new-york' },
   })
 })
 
-it('shows times in links as people read them', () => {
+it('writes times readably in links', () => {
   expect(hashOf({ view: 'now', day: 'd', params: { at: '07:10:00' } })).toBe('#/day/d/now?at=07:10:00')
 })
 
-it('leads to the days from anywhere unknown, and to now from an unknown view of a day, and knows that it does', () => {
+it('marks unknown addresses, and leads to the days or to the day’s current view', () => {
   for (const hash of ['', '#', '#/']) expect(parseRoute(hash)).toEqual(home)
   for (const hash of ['#/nowhere', '#/day', '#/day/', '#/%E0%A4%A'])
     expect(parseRoute(hash)).toEqual({ ...home, isUnknown: true })

@@ -51,7 +51,7 @@ const result = (...policies: PolicyResult[]): StudyResult => ({
   policies,
 })
 
-it('says what the best policy earns more than the first', () => {
+it('states the lead of the best policy over the first', () => {
   const said = headlineOf(result(policy('greedy', 100), policy('prices', 140, minus(40, 0.0004))))
   expect(said).toEqual({
     policy: 'prices',
@@ -67,7 +67,7 @@ it('says what the best policy earns more than the first', () => {
   })
 })
 
-it('turns the difference if the first is the best', () => {
+it('reverses the difference if the first is the best', () => {
   const said = headlineOf(
     result(policy('a', 100), policy('b', 70, minus(-30, 0.2)), policy('plan', 200, { sees: 'whole-day' })),
   )
@@ -80,7 +80,7 @@ it('turns the difference if the first is the best', () => {
   })
 })
 
-it('has no lead of one policy, and no interval of one day', () => {
+it('has no lead with one policy, and no interval with one day', () => {
   expect(headlineOf(result(policy('a', 100)))?.lead).toBeUndefined()
   expect(headlineOf(result(policy('plan', 100, { sees: 'whole-day' })))).toBeUndefined()
   const one = headlineOf(result(policy('a', 100), policy('b', 130, minus(30, null))))
@@ -89,7 +89,7 @@ it('has no lead of one policy, and no interval of one day', () => {
   expect(headlineOf(result(bounded))?.share).toBe('95.1 %')
 })
 
-it('writes numbers as people read them', () => {
+it('formats numbers', () => {
   expect(pStatement(0.0213)).toBe('p = 0.021')
   expect(estimate({ mean: 37148.6, standard_deviation: null, half_width_95: null })).toBe('$37,149')
   expect(estimate({ mean: -1200, standard_deviation: 2, half_width_95: 1310.4 }, true)).toBe(
@@ -117,7 +117,7 @@ it('has axes with round steps', () => {
   expect(axisAround([7], 4)).toMatchObject({ from: 5, to: 10 })
 })
 
-it('pairs the days of two studies, with the interval that the service would give', () => {
+it('pairs the days of two studies, with the interval of the service', () => {
   // Student's t for 2 degrees of freedom is 4.3027; divided by the root of 3 days it is 2.4841.
   const profit_usd = { mean: 200, standard_deviation: 100, half_width_95: 248.41 }
   const before = policy('greedy', 200, { profit_usd, daily_profit_usd: [100, 200, 300] })
@@ -131,7 +131,7 @@ it('pairs the days of two studies, with the interval that the service would give
   expect(pairedDifference(now, policy('greedy', 1, { daily_profit_usd: [1] }))).toBeUndefined()
 })
 
-it('says nothing of chance after a single day', () => {
+it('is never significant after a single day', () => {
   const day = (profit: number) =>
     policy('greedy', profit, { profit_usd: { mean: profit }, daily_profit_usd: [profit] })
   const difference = pairedDifference(day(12), day(10))

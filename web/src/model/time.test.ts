@@ -9,7 +9,7 @@ describe('times of a day', () => {
     expect(parseTime(3600)).toBe(3600)
   })
 
-  it('are refused if they are no times', () => {
+  it('are rejected if invalid', () => {
     for (const wrong of ['', '7', '07:60:00', '07:10:60', '-1:00:00', 'noon', '100:00:00']) {
       expect(parseTime(wrong), wrong).toBeUndefined()
     }
@@ -18,12 +18,12 @@ describe('times of a day', () => {
     expect(() => timeOf('noon')).toThrow('noon')
   })
 
-  it('are written as they are read', () => {
+  it('are formatted as they are parsed', () => {
     for (const time of [0, 59, 3600, 86_399, 90_000, 359_999]) expect(parseTime(clock(time))).toBe(time)
     expect(clockMinutes(25_859)).toBe('07:10')
   })
 
-  it('last for words that fit a line', () => {
+  it('have short durations in words', () => {
     expect([duration(45), duration(600), duration(3900), duration(-300)]).toEqual([
       '45 s',
       '10 min',

@@ -35,7 +35,7 @@ describe('a scenario and a trace', () => {
     expect(legs_usd - fixedCost(scenario())).toBeCloseTo(2860.02, 2)
   })
 
-  it('show a delay as a later departure, and what was planned', () => {
+  it('show a delay as a later departure, with the plan', () => {
     const late = record.legs[1]
     expect(late).toMatchObject({
       decided: timeOf('07:00:00'),
@@ -50,13 +50,13 @@ describe('a scenario and a trace', () => {
     expect(record.legs[0]?.planned).toBeUndefined()
   })
 
-  it('show that an outage held an aircraft up', () => {
+  it('show the delay by an outage', () => {
     const held = record.legs[7]
     expect(held?.ready).toBe(timeOf('08:11:55'))
     expect(held?.planned?.ready).toBe(timeOf('08:02:43'))
   })
 
-  it('close a route both ways', () => {
+  it('close a route in both directions', () => {
     const times = { since: timeOf('07:30:00'), until: timeOf('08:00:00') }
     expect(record.closures).toEqual([
       { from: 1, to: 2, ...times },
@@ -64,14 +64,14 @@ describe('a scenario and a trace', () => {
     ])
   })
 
-  it('are read as Windows writes them', () => {
+  it('are read with the line endings of Windows', () => {
     const text = `\uFEFF${pricesTrace.replaceAll('\n', '\r\n')}`
     expect(recordOf(parseScenario(`\uFEFF${scenarioText}`), text).legs).toHaveLength(20)
   })
 })
 
-describe('a file that is something else', () => {
-  it('is said to be no scenario', () => {
+describe('a file in another format', () => {
+  it('is rejected as a scenario', () => {
     expect(faultOf(() => parseScenario('{'))).toEqual({ what: 'no-json' })
     expect(faultOf(() => parseScenario('null'))).toEqual({ what: 'no-scenario', format: undefined })
     const result = '{"format": "vertifleet-result/1"}'
@@ -81,7 +81,7 @@ describe('a file that is something else', () => {
     })
   })
 
-  it('is said to be no trace', () => {
+  it('is rejected as a trace', () => {
     expect(isTrace(greedyTrace)).toBe(true)
     expect(isTrace(scenarioText)).toBe(false)
     expect(faultOf(() => recordOf(scenario(), 'update,reward\n1,2\n'))).toEqual({
@@ -90,7 +90,7 @@ describe('a file that is something else', () => {
     })
   })
 
-  it('is named by line and column', () => {
+  it('is rejected with its line and column', () => {
     const of = (from: string, to: string) =>
       faultOf(() => recordOf(scenario(), pricesTrace.replace(from, to)))
     expect(of('ready', 'done')).toEqual({ what: 'missing-column', column: 'ready' })

@@ -26,7 +26,7 @@ it('passengers who were not carried in their period are gone', () => {
   expect(waitingFor(waiting, timeOf('08:00:00'), 2, 1)).toBe(wanted(1, 2, 1))
 })
 
-it('going back gives the same as going on', () => {
+it('moving back gives the same result as moving forward', () => {
   const [onward, back] = [new Waiting(record), new Waiting(record)]
   const times = Array.from({ length: 24 }, (_, step) => record.start + step * 300)
   const seen = times.map((time) => onward.pairs(time))
@@ -38,7 +38,7 @@ it('going back gives the same as going on', () => {
   ).toEqual(seen)
 })
 
-it('gives the same list while nothing changes', () => {
+it('returns the same list while nothing changes', () => {
   const waiting = new Waiting(record)
   expect(waiting.pairs(timeOf('07:05:00'))).toBe(waiting.pairs(timeOf('07:06:00')))
 })

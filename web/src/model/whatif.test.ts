@@ -9,7 +9,7 @@ const changes: Change[] = [
 ]
 
 describe('a what-if', () => {
-  it('asks for what was changed and nothing else', () => {
+  it('requests exactly the changes', () => {
     expect(askedOf(changes, 'rolling')).toEqual({
       events: [{ type: 'closed', routes: { vertiport: 'V1' }, until: '12:00:00' }],
       aircraft: [{ id: 'A06', at: 'East' }],
@@ -20,13 +20,13 @@ describe('a what-if', () => {
     expect(eventsOf(changes)).toHaveLength(1)
   })
 
-  it('is shown with the fleet and the stands that it is about', () => {
+  it('is shown with its fleet and stands', () => {
     const scenario = scenarioWith(liveScenario, askedOf(changes, ''))
     expect(scenario.aircraft.at(-1)).toEqual({ id: 'A06', at: 'East', type: 'cityairbus' })
     expect(scenario.vertiports.map((one) => one.stands)).toEqual([9, 3, 2])
   })
 
-  it('is compared number by number', () => {
+  it('is compared figure by figure', () => {
     const rows = compared(outlook, {
       ...outlook,
       totals: { ...outlook.totals, passengers: 1 },
@@ -37,7 +37,7 @@ describe('a what-if', () => {
   })
 })
 
-it('an id of another aircraft is none that is taken', () => {
+it('the id of an additional aircraft is unused', () => {
   expect(freshId(['A01', 'A02'])).toBe('A03')
   expect(freshId(['A01', 'A03'])).toBe('A04')
   expect(freshId(['N7', 'A03', 'A04'])).toBe('A05')

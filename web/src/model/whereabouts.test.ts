@@ -16,7 +16,7 @@ function placesOf(...events: Event[]): (string | undefined)[] {
   return taken.map((one) => whereabouts.placeOf(one))
 }
 
-it('a departure leads where it was decided to, and the landing is there', () => {
+it('a departure and its landing have the decided destination', () => {
   const [decided, departed, landed] = placesOf(
     { type: 'decided', aircraft: 'A01', to: 'East' },
     { type: 'departed', aircraft: 'A01' },
@@ -25,7 +25,7 @@ it('a departure leads where it was decided to, and the landing is there', () => 
   expect([decided, departed, landed]).toEqual([undefined, 'East', 'East'])
 })
 
-it('what the event says itself counts more', () => {
+it('a vertiport in the event takes precedence', () => {
   const places = placesOf(
     { type: 'decided', aircraft: 'A01', to: 'East' },
     { type: 'departed', aircraft: 'A01', to: 'South' },
@@ -36,7 +36,7 @@ it('what the event says itself counts more', () => {
   expect(places).toEqual([undefined, 'South', 'South', undefined, 'North'])
 })
 
-it('nothing is known of what was taken back or never said', () => {
+it('undone and missing decisions have no place', () => {
   const places = placesOf(
     { type: 'landed', aircraft: 'A02' },
     { type: 'decided', aircraft: 'A01', to: 'East' },

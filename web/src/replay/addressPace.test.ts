@@ -13,17 +13,17 @@ function changesIn(length_ms: number, every_ms: number): number {
   return changes
 }
 
-it('lets steps by key through at once', () => {
+it('allows steps by key at once', () => {
   expect(changesIn(2_000, 200)).toBe(10)
   expect(changesIn(30, 15)).toBe(2)
 })
 
-it('lets a moment that is dragged through as often as browsers allow', () => {
+it('allows changes by dragging as often as browsers do', () => {
   expect(changesIn(30_000, 16)).toBeGreaterThan(60)
   expect(changesIn(30_000, 16)).toBeLessThan(100)
 })
 
-it('lets changes through again after a rest', () => {
+it('allows changes again after a pause', () => {
   const pace = new AddressPace()
   for (let change = 0; change < 30; change++) pace.changed(change)
   expect(pace.wait(30)).toBeGreaterThan(200)

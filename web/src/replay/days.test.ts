@@ -10,13 +10,13 @@ const files = {
 }
 
 describe('files', () => {
-  it('make a day whose plays are called by what their names add', () => {
+  it('make a day whose plays are named after their files', () => {
     const day = dayOfFiles([files.prices, files.scenario, files.greedy])
     expect(day.name).toBe('tiny-1')
     expect(day.plays.map(({ policy }) => policy)).toEqual(['prices', 'greedy'])
   })
 
-  it('add traces to the day that is there', () => {
+  it('add traces to an existing day', () => {
     const former = dayOfFiles([files.scenario, files.greedy])
     expect(dayOfFiles([files.prices], former).plays.map(({ policy }) => policy)).toEqual(['greedy', 'prices'])
     expect(dayOfFiles([files.scenario, files.prices], former).plays.map(({ policy }) => policy)).toEqual([
@@ -24,7 +24,7 @@ describe('files', () => {
     ])
   })
 
-  it('keep what is known of the day that they are added to', () => {
+  it('keep the scenario and the end of the day to which they are added', () => {
     const former = { ...dayOfFiles([files.scenario, files.greedy]), until: 30_000 }
     const day = dayOfFiles([files.prices], former)
     expect(day.until).toBe(30_000)
@@ -33,7 +33,7 @@ describe('files', () => {
   })
 })
 
-describe('of files that cannot be shown', () => {
+describe('files that cannot be shown', () => {
   const faultsOf = (given: readonly { name: string; text: string }[], former?: ReplayDay) => {
     try {
       dayOfFiles(given, former)
@@ -47,7 +47,7 @@ describe('of files that cannot be shown', () => {
   const hello = { name: 'hello.json', text: '{"hello": 1}' }
   const wrong = { name: 'wrong.csv', text: greedyTrace.replace('A02', 'B02') }
 
-  it('each is named with what is wrong with it, and no sound one is', () => {
+  it('are listed with their faults, without the valid ones', () => {
     expect(faultsOf([notes])).toEqual([['notes.csv', 'no-trace']])
     expect(faultsOf([hello])).toEqual([['hello.json', 'no-scenario']])
     expect(faultsOf([notes, hello, files.greedy])).toEqual([
@@ -63,23 +63,23 @@ describe('of files that cannot be shown', () => {
     ])
   })
 
-  it('a broken scenario is no reason to blame traces for not being of the day that is there', () => {
+  it('with a broken scenario, traces are not checked against the existing day', () => {
     const former = dayOfFiles([files.scenario, files.greedy])
     expect(faultsOf([hello, wrong], former)).toEqual([['hello.json', 'no-scenario']])
   })
 
-  it('it is said what is missing where what is there is sound', () => {
+  it('missing files are reported if the others are valid', () => {
     expect(faultsOf([files.greedy])).toEqual([[undefined, 'scenario-missing']])
     expect(faultsOf([files.scenario])).toEqual([[undefined, 'trace-missing']])
   })
 })
 
-it('a file that is given again takes the place of what it was', () => {
+it('a file with the same name replaces the earlier one', () => {
   const former = dayOfFiles([files.scenario, files.greedy])
   expect(dayOfFiles([files.greedy], former).plays).toHaveLength(1)
 })
 
-describe('of several plays', () => {
+describe('with several plays', () => {
   const play = (policy: string, profit_usd: number): Play => ({ policy, trace: '', profit_usd })
   const plays = [play('random', 1), play('prices', 3), play('greedy', 2)]
   const chosen = (policy?: string, other?: string) => {
@@ -87,22 +87,22 @@ describe('of several plays', () => {
     return [found.play?.policy, found.other?.policy]
   }
 
-  it('the best two are looked at first', () => {
+  it('the best two are shown first', () => {
     expect(chosen()).toEqual(['prices', 'greedy'])
   })
 
-  it('those are that an address names', () => {
+  it('the plays named in an address are shown', () => {
     expect(chosen('random', 'prices')).toEqual(['random', 'prices'])
     expect(chosen('greedy')).toEqual(['greedy', 'prices'])
     expect(chosen('gone', 'gone')).toEqual(['prices', 'greedy'])
   })
 
-  it('one is alone if an address wants that, or if there is no other', () => {
+  it('one play is shown alone if an address requires it, or if there is no other', () => {
     expect(chosen('greedy', '')).toEqual(['greedy', undefined])
     expect(chosenPlays(plays.slice(0, 1), undefined, undefined).other).toBeUndefined()
   })
 
-  it('the first ones are where it is not known what they earned', () => {
+  it('the first ones are shown if profits are unknown', () => {
     const unknown = ['as-it-was', 'greedy'].map((policy) => ({ policy, trace: '' }))
     expect(chosenPlays(unknown, undefined, undefined).play?.policy).toBe('as-it-was')
   })
@@ -118,7 +118,7 @@ describe('a page', () => {
     expect(playedOf(day, play).earnings.total_usd).toBeCloseTo(play.profit_usd ?? 0, 2)
   })
 
-  it('of no report has none', () => {
+  it('without a report has none', () => {
     expect(embeddedDays(' \n')).toEqual([])
   })
 })

@@ -62,13 +62,13 @@ async function dayMovesOn(to = service.to): Promise<void> {
 }
 
 describe('advice', () => {
-  it('gives way to newer advice while the user does not work with it', async () => {
+  it('is replaced by newer advice while the user does not work with it', async () => {
     await dayMovesOn('V3')
     expect(advisor.proposal?.to).toBe('V3')
     expect(advisor.newer).toBeUndefined()
   })
 
-  it('stays while the user works with it, and says that there is newer', async () => {
+  it('stays while the user works with it, and offers newer advice', async () => {
     advisor.isEngaged = true
     await dayMovesOn('V3')
     expect(advisor.proposal?.to).toBe('V2')
@@ -78,7 +78,7 @@ describe('advice', () => {
     expect(advisor.proposal?.to).toBe('V3')
   })
 
-  it('is brought up to date where it is the same', async () => {
+  it('is updated in place if it is the same', async () => {
     advisor.isEngaged = true
     await dayMovesOn()
     expect(advisor.proposal?.seq).toBe(2)
@@ -87,26 +87,26 @@ describe('advice', () => {
 })
 
 describe('an acceptance', () => {
-  it('takes the advice that is shown', async () => {
+  it('accepts the displayed advice', async () => {
     await vi.advanceTimersByTimeAsync(500)
     expect(await advisor.accept()).toMatchObject({ kind: 'taken', taken: { to: 'V2' } })
     expect(service.decisions).toEqual([{ aircraft: 'A01', seq: 1 }])
   })
 
-  it('is not meant for advice that came up only now', async () => {
+  it('is ignored for advice that has only just appeared', async () => {
     expect(advisor.canAccept).toBe(false)
     expect(await advisor.accept()).toEqual({ kind: 'none' })
     expect(service.decisions).toEqual([])
   })
 
-  it('holds when the day has gone on and the advice is the same', async () => {
+  it('is retried when the day has advanced and the advice is the same', async () => {
     await vi.advanceTimersByTimeAsync(500)
     service.seq = 7
     expect((await advisor.accept()).kind).toBe('taken')
     expect(service.decisions.map((one) => one.seq)).toEqual([1, 7])
   })
 
-  it('takes nothing that was not shown', async () => {
+  it('accepts nothing that was not displayed', async () => {
     await vi.advanceTimersByTimeAsync(500)
     service.seq = 7
     service.to = 'V3'
@@ -116,7 +116,7 @@ describe('an acceptance', () => {
   })
 })
 
-it('an override says where and why', async () => {
+it('an override has a destination and a reason', async () => {
   await advisor.override('V3', 'the crew lives there')
   expect(service.decisions).toEqual([
     { aircraft: 'A01', to: 'V3', reason: 'the crew lives there', seq: undefined },

@@ -31,7 +31,7 @@ it('acknowledged alerts come last, and one that comes back is new', () => {
   })
 })
 
-it('a reload still knows that what came with an event was acknowledged', () => {
+it('acknowledgements of event notices survive a reload', () => {
   const kept = storage()
   const said: Alert = { ...over, key: 'said 4 x', matter: { kind: 'said', words: 'x' }, since: 50 }
   const list = new Alerts('day', kept)

@@ -17,7 +17,7 @@ afterEach(() => {
   vi.unstubAllGlobals()
 })
 
-it('is never before an event that has been heard of, though aircraft are drawn without a jump', () => {
+it('is never before a known event, although aircraft move without a jump', () => {
   const clock = new Clock()
   clock.run()
   for (let second = 0; second <= 10; second++) {

@@ -11,14 +11,14 @@ beforeEach(() => {
   kept = new Map()
 })
 
-it('what was decided here is known after a reload, and on this day only', () => {
+it('own decisions survive a reload, and belong to one day', () => {
   new OwnDecisions('d1', storage).add(7)
   const again = new OwnDecisions('d1', storage)
   expect([again.has(7), again.has(8)]).toEqual([true, false])
   expect(new OwnDecisions('d2', storage).has(7)).toBe(false)
 })
 
-it('numbers that a day has lost belong to no user', () => {
+it('numbers after the end of a restored log are forgotten', () => {
   const own = new OwnDecisions('d1', storage)
   for (const seq of [3, 9]) own.add(seq)
   own.forgetAfter(5)
@@ -26,14 +26,14 @@ it('numbers that a day has lost belong to no user', () => {
   expect([again.has(3), again.has(9)]).toEqual([true, false])
 })
 
-it('what is kept under the same name and is no list of numbers is not read', () => {
+it('invalid content of the storage is ignored', () => {
   for (const other of ['{', '{"7":1}', '"7"', '["7"]']) {
     kept.set('vertifleet-decided d1', other)
     expect(new OwnDecisions('d1', storage).has(7)).toBe(false)
   }
 })
 
-it('a storage that is full does not keep anybody from deciding', () => {
+it('a full storage does not prevent decisions', () => {
   const full = {
     ...storage,
     setItem: () => {

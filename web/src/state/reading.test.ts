@@ -2,7 +2,7 @@ import { expect, it } from 'vitest'
 import { ProblemError } from '../api/problem'
 import { Reading } from './reading.svelte'
 
-it('keeps what was read when it cannot be read again, and says why', async () => {
+it('keeps the last value when a later read fails, with the problem', async () => {
   const answers = [['a'], new ProblemError(0, '', 'away', undefined), ['b']]
   const list = new Reading(() => {
     const answer = answers.shift()
@@ -16,6 +16,6 @@ it('keeps what was read when it cannot be read again, and says why', async () =>
   expect([list.value, list.problem]).toEqual([['b'], undefined])
 })
 
-it('hides no error of our own', async () => {
+it('throws errors that are bugs', async () => {
   await expect(new Reading(() => Promise.reject(new TypeError('a slip'))).read()).rejects.toThrow('a slip')
 })

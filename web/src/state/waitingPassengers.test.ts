@@ -33,14 +33,14 @@ async function moveOn(seq: number): Promise<void> {
   await vi.advanceTimersByTimeAsync(5000)
 }
 
-describe('passengers who wait', () => {
-  it('are not known before the service has said so', async () => {
+describe('waiting passengers', () => {
+  it('are unknown before the service has answered', async () => {
     expect(waiting.pairs(scenario)).toBeUndefined()
     await moveOn(4)
     expect(waiting.pairs(scenario)).toEqual([{ from: 1, to: 0, passengers: 9 }])
   })
 
-  it('are asked for again only when the day has moved on', async () => {
+  it('are requested again only when the day has advanced', async () => {
     await moveOn(4)
     await moveOn(4)
     expect(asked).toBe(1)
@@ -50,7 +50,7 @@ describe('passengers who wait', () => {
     expect(waiting.pairs(scenario)).toEqual([{ from: 1, to: 0, passengers: 5 }])
   })
 
-  it('are not known while the service does not say', async () => {
+  it('are unknown while the service does not answer', async () => {
     await moveOn(4)
     answer = () => Promise.reject(new ProblemError(503, 'V600', 'busy', undefined))
     await moveOn(5)

@@ -2,7 +2,7 @@ import { expect, it } from 'vitest'
 import { ProblemError } from '../api/problem'
 import { said, sentenceOf } from './problems'
 
-it('says what was not found in plain words, and leads to where it could be', () => {
+it('explains a missing object, with a link to its list', () => {
   const problem = new ProblemError(404, 'V602', 'there is no study "zzz"', undefined)
   const { title, code, way } = said(problem)
   expect([title, code, way]).toEqual([
@@ -12,7 +12,7 @@ it('says what was not found in plain words, and leads to where it could be', () 
   ])
 })
 
-it('keeps hints for programs from people', () => {
+it('omits hints for programs', () => {
   const hint = 'GET /v1/policies lists them; PUT /v1/policies/NAME keeps weights under a name'
   const policy = said(new ProblemError(404, 'V602', 'there is no policy "zzz"', hint))
   expect(policy.title).toBe('There is no policy “zzz”.')
@@ -27,7 +27,7 @@ it('keeps hints for programs from people', () => {
   expect(said(archived)).toEqual({ title: 'Day “d” is archived.', code: 'V608' })
 })
 
-it('says everything else as the service does, as sentences and with the code', () => {
+it('shows other messages of the service as sentences with the code', () => {
   const problem = new ProblemError(412, 'V605', 'the day has gone on', 'read the day again, and decide anew')
   expect(said(problem)).toEqual({
     title: 'The day has gone on.',
@@ -37,7 +37,7 @@ it('says everything else as the service does, as sentences and with the code', (
   expect(said(new ProblemError(404, 'V602', 'there is no path "/x"', undefined)).code).toBe('V602')
 })
 
-it('makes a sentence of a message, and none of a path', () => {
+it('makes a sentence of a message, but keeps a path', () => {
   expect(sentenceOf('aircraft "A01" is out')).toBe('Aircraft “A01” is out.')
   expect(sentenceOf('small.toml: stands must be at least 1')).toBe('small.toml: stands must be at least 1.')
   expect(sentenceOf('HTTP 502')).toBe('HTTP 502.')

@@ -26,7 +26,7 @@ function fleetRow(aircraft: number): GanttRow {
 }
 
 describe('labels of the fleet', () => {
-  it('say where flights come from and go, and nothing of holds', () => {
+  it('contain origin and destination of flights, and omit holds', () => {
     const texts = labelsOf(fleetRow(0), 1).map((label) => label?.text)
     const legs = record.legs.filter((leg) => leg.aircraft === 0)
     const id = (vertiport: number) => record.vertiports[vertiport]?.id
@@ -34,17 +34,17 @@ describe('labels of the fleet', () => {
     expect(texts).toEqual(names)
   })
 
-  it('leave the origin out where there is less room', () => {
+  it('omit the origin if there is less room', () => {
     // The first flight takes 661 s, which is 53 pixels here: room for eight letters.
     const [first] = labelsOf(fleetRow(0), 0.08)
     expect(first).toMatchObject({ text: '→ East', isLonger: false })
   })
 
-  it('stay on their bars where there is room', () => {
+  it('stay on their bars if there is room', () => {
     for (const label of labelsOf(fleetRow(0), 1)) if (label !== undefined) expect(label.isLonger).toBe(false)
   })
 
-  it('run on over the charging after a short flight, and no further', () => {
+  it('continue over the charging after a short flight, and no further', () => {
     // The first flight takes 661 s and its charging 509 s: 16 and 12 pixels for four letters, which
     // take 24.
     const [first] = labelsOf(fleetRow(0), 0.0245)
@@ -55,7 +55,7 @@ describe('labels of the fleet', () => {
     expect(first?.right).toBeLessThanOrEqual(((charge?.ends ?? 0) - record.start) * 0.0245)
   })
 
-  it('are cut off where even that is too little, and absent where letters would say nothing', () => {
+  it('are cut off if even that is too narrow, and absent if too few letters remain', () => {
     // No name of this day is long enough to be cut to three letters.
     expect(labelsOf(fleetRow(0), 0.017)[0]).toBeUndefined()
     expect(labelsOf(fleetRow(0), 0.005)[0]).toBeUndefined()
@@ -71,13 +71,13 @@ describe('labels of stands', () => {
     }
   })
 
-  it('are never cut to what could be another aircraft', () => {
+  it('are never cut to a prefix of another aircraft', () => {
     const texts = rowsOfStands(record).flatMap((row) => labelsOf(row, 0.01).map((label) => label?.text))
     expect(texts.filter((text) => text?.includes('…'))).toEqual([])
   })
 })
 
-it('bars of an aircraft before its first flight are a run of their own', () => {
+it('bars of an aircraft before its first flight are a separate run', () => {
   const bar = { kind: 'standing', begins: 0, ends: 10, load: 0, isExpected: false } as const
   const runs = runsOf(
     [

@@ -8,7 +8,7 @@ const record = prices()
 const fleet = rowsOfFleet(record)
 
 describe('rows', () => {
-  it('are called as their aircraft, and by vertiport and stand', () => {
+  it('are named after aircraft, or after vertiport and stand', () => {
     expect(fleet.map(({ label }) => label)).toEqual(['A01', 'A02', 'A03'])
     expect(rowsOfStands(record).map(({ group, label }) => group ?? label)).toEqual([
       'North, shore',
@@ -20,7 +20,7 @@ describe('rows', () => {
     ])
   })
 
-  it('give the bar at a time', () => {
+  it('find the bar at a time', () => {
     const row = fleet[1]
     if (row === undefined) throw new Error('there are three aircraft')
     expect(barAt(row, timeOf('07:02:00'))?.kind).toBe('delay')
@@ -28,7 +28,7 @@ describe('rows', () => {
     expect(barAt(row, timeOf('06:00:00'))).toBeUndefined()
   })
 
-  it('give only the bars that a span touches', () => {
+  it('return only the bars that overlap a span', () => {
     const row = fleet[0]
     if (row === undefined) throw new Error('there are three aircraft')
     const [first, end] = barsWithin(row, { from: timeOf('07:15:00'), to: timeOf('07:30:00') })
@@ -36,7 +36,7 @@ describe('rows', () => {
     expect(barsWithin({ ...row, bars: [], begins: new Float64Array() }, { from: 0, to: 1 })).toEqual([0, 0])
   })
 
-  it('lead to what is selected', () => {
+  it('map to selection targets', () => {
     const bar = fleet[0]?.bars[0]
     if (bar === undefined) throw new Error('the first aircraft flies')
     expect(targetOf(bar, record)).toEqual({ kind: 'leg', aircraft: 0, decided: timeOf('07:00:00') })
@@ -51,7 +51,7 @@ describe('rows', () => {
 describe('steps with keys', () => {
   const time = timeOf('07:25:00')
 
-  it('begin with the first aircraft at the time that is shown', () => {
+  it('begin with the first aircraft at the displayed time', () => {
     expect(stepFrom(record, undefined, time, 'next')).toEqual({
       kind: 'leg',
       aircraft: 0,
@@ -59,7 +59,7 @@ describe('steps with keys', () => {
     })
   })
 
-  it('go along the legs of an aircraft and stop at its ends', () => {
+  it('move along the legs of an aircraft and stop at both ends', () => {
     const first = stepFrom(record, { kind: 'aircraft', aircraft: 1 }, time, 'first')
     expect(selectedLeg(record, first)?.decided).toBe(timeOf('07:00:00'))
     expect(selectedLeg(record, stepFrom(record, first, time, 'next'))?.decided).toBe(timeOf('07:23:29'))
@@ -68,7 +68,7 @@ describe('steps with keys', () => {
     expect(stepFrom(record, last, time, 'next')).toEqual(last)
   })
 
-  it('go to the neighbour at the same time', () => {
+  it('move to the next aircraft at the same time', () => {
     const from = { kind: 'leg', aircraft: 1, decided: timeOf('07:23:29') } as const
     expect(stepFrom(record, from, time, 'above')).toEqual({
       kind: 'leg',
@@ -86,7 +86,7 @@ describe('steps with keys', () => {
     })
   })
 
-  it('lead nowhere in a day without legs', () => {
+  it('select the aircraft on a day without legs', () => {
     expect(stepFrom({ ...record, legs: [] }, undefined, time, 'next')).toEqual({
       kind: 'aircraft',
       aircraft: 0,

@@ -22,14 +22,14 @@ describe('a span', () => {
     expect(near.to - near.from).toBe(300)
   })
 
-  it('moves to show a time, and no further than it must', () => {
+  it('moves only as far as necessary to show a time', () => {
     const near = { from: 10 * 3600, to: 12 * 3600 }
     expect(showTime(near, 11 * 3600, whole)).toBe(near)
     expect(showTime(near, 13 * 3600, whole).to).toBe(13 * 3600 + 720)
     expect(showTime(near, 9 * 3600, whole).from).toBe(9 * 3600 - 720)
   })
 
-  it('follows the time that it shows, and no other', () => {
+  it('follows the displayed time, and no other', () => {
     const near = { from: 10 * 3600, to: 12 * 3600 }
     const edge = near.from + 0.8 * 7200
     expect(follow(near, edge, edge + 10, whole)).toEqual({ from: near.from + 10, to: near.to + 10 })
@@ -37,18 +37,18 @@ describe('a span', () => {
     expect(follow(near, edge + 20, edge + 10, whole)).toBe(near)
   })
 
-  it('stays the same at the end of the day, so that nothing is drawn again', () => {
+  it('is unchanged at the end of the day, so that nothing is redrawn', () => {
     const last = { from: 20 * 3600, to: 22 * 3600 }
     expect(follow(last, 21.9 * 3600, 21.91 * 3600, whole)).toBe(last)
   })
 })
 
-describe('a day that happens', () => {
-  it('is shown as a whole where there is room', () => {
+describe('a live day', () => {
+  it('is shown completely if there is room', () => {
     expect(liveSpan(9 * 3600, 1200, whole)).toBe(whole)
   })
 
-  it('is shown around now where there is not, and never beyond its ends', () => {
+  it('is otherwise shown around now, and never beyond its ends', () => {
     const near = liveSpan(12 * 3600, 720, whole)
     expect(near).toEqual({ from: 10 * 3600, to: 18 * 3600 })
     expect(liveSpan(6 * 3600, 720, whole)).toEqual({ from: 6 * 3600, to: 14 * 3600 })
@@ -58,14 +58,14 @@ describe('a day that happens', () => {
 })
 
 describe('the axis', () => {
-  it('names round times', () => {
+  it('labels round times', () => {
     expect(ticks({ from: 6 * 3600 + 1, to: 8 * 3600 }, 240, 60)).toEqual(
       [6.5, 7, 7.5, 8].map((hour) => hour * 3600),
     )
     expect(ticks(whole, 320, 60)).toEqual([6, 9, 12, 15, 18, 21].map((hour) => hour * 3600))
   })
 
-  it('leads from pixels to times and back', () => {
+  it('converts pixels to times and back', () => {
     expect(timeAt(whole, 1600, 200)).toBe(8 * 3600)
     expect(pixelOf(whole, 1600, 8 * 3600)).toBe(200)
   })

@@ -4,7 +4,7 @@ import { squareName, squares } from './grid'
 import { digitsOf, multiples, roundDown, roundUp } from './steps'
 
 describe('the base map as text', () => {
-  it('comes back as it was, to a thousandth of a degree', () => {
+  it('survives a round trip, to a thousandth of a degree', () => {
     const points: [number, number][] = [
       [-74.123, 40.001],
       [-74.12, 40.5],
@@ -16,7 +16,7 @@ describe('the base map as text', () => {
     )
   })
 
-  it('leaves out points that fall on the one before', () => {
+  it('omits points equal to the previous one', () => {
     const text = encode(
       [
         [0, 0],
@@ -28,7 +28,7 @@ describe('the base map as text', () => {
     expect(decode(text, [0, 0])).toHaveLength(4)
   })
 
-  it('has no letter that a page would have to escape', () => {
+  it('needs no escaping in a page', () => {
     const text = encode(
       [
         [-4.9, 3.3],
@@ -41,7 +41,7 @@ describe('the base map as text', () => {
 })
 
 describe('the grid of cells', () => {
-  it('gives every square that is touched', () => {
+  it('returns every square that intersects', () => {
     expect(squares({ west: -76, south: 39, east: -73, north: 41 }, 5)).toEqual([
       [-80, 35],
       [-75, 35],
@@ -50,7 +50,7 @@ describe('the grid of cells', () => {
     ])
   })
 
-  it('goes on beyond the antimeridian', () => {
+  it('continues across the antimeridian', () => {
     const names = squares({ west: 178, south: 1, east: 182, north: 2 }, 5).map((one) => squareName(one, ','))
     expect(names).toEqual(['175,0', '-180,0'])
   })

@@ -24,7 +24,7 @@ function changed(file: TomlFile, splices: Splice[]): { gone: string[]; come: str
 }
 
 describe('a change of a network file', () => {
-  it('leaves all else as it was, remarks and their columns too', () => {
+  it('changes nothing else, including comments and their columns', () => {
     const file = read('new-york')
     const one = changed(file, set(file, ['operations', 'takeoff_s'], 90))
     expect(one.gone).toEqual([
@@ -50,7 +50,7 @@ describe('a change of a network file', () => {
     expect(apply(more.text, splices)).toBe('peak = { mean = 1, sd = 2 }\nnone = { sd = 3 }\n')
   })
 
-  it('adds members where their table is', () => {
+  it('adds members to their table', () => {
     const file = read('new-york')
     const chargers = changed(file, set(file, ['vertiports', 1, 'chargers'], 2))
     expect(chargers.come).toEqual(['chargers = 2'])
@@ -69,7 +69,7 @@ describe('a change of a network file', () => {
     )
   })
 
-  it('adds a vertiport behind the last one and takes no remark from what follows', () => {
+  it('adds a vertiport after the last one and leaves later comments in place', () => {
     const file = read('new-york')
     const splices = [
       ...append(file, ['vertiports'], {
@@ -90,7 +90,7 @@ describe('a change of a network file', () => {
     expect(after.text).toContain('most_s = 900 },\n    { at = "NEW", probability = 0.1 },\n]')
   })
 
-  it('removes a table with its remarks and nothing else', () => {
+  it('removes a table with its comments and nothing else', () => {
     const file = read('new-york')
     const { gone, come } = changed(file, remove(file, ['vertiports', 3]))
     expect(come).toEqual([])
@@ -130,13 +130,13 @@ describe('a change of a network file', () => {
     )
   })
 
-  it('keeps line ends of other systems', () => {
+  it('keeps the line endings of other systems', () => {
     const file = new TomlFile('a = 1\r\nb = 2\r\n')
     const splices = [...set(file, ['c'], 3), ...remove(file, ['a'])]
     expect(apply(file.text, splices)).toBe('b = 2\r\nc = 3\r\n')
   })
 
-  it('puts every value back as it is in every shipped network', () => {
+  it('writes every value of every shipped network unchanged', () => {
     for (const name of shipped) {
       const file = read(name)
       const value = file.value as Record<string, Record<string, number | string | boolean>[]>
@@ -152,7 +152,7 @@ describe('a change of a network file', () => {
 })
 
 describe('a file', () => {
-  it('knows what stands where', () => {
+  it('finds the position of every member', () => {
     const file = read('new-york')
     const at = (text: string) => file.text.indexOf(text)
     expect(file.pathAt(at('40.69248'))).toEqual(['vertiports', 5, 'latitude'])
@@ -178,7 +178,7 @@ describe('a file', () => {
     expect(file.span(['nowhere'])).toBeUndefined()
   })
 
-  it('says where it cannot be read', () => {
+  it('reports the position of a syntax error', () => {
     const broken = () => new TomlFile('a = 1\nb = [1,\nc = 2\n')
     expect(broken).toThrow(TomlError)
     try {

@@ -60,7 +60,7 @@ it.each([
   expect(lines[(found.line ?? 0) - 1]?.startsWith(line)).toBe(true)
 })
 
-it('calls what is counted by what it is, and what is empty so', () => {
+it('names entries by kind and number, and empty members as empty', () => {
   const found = find('vertiports[0]: id must be 1 to 64 characters without control characters, found ""')
   expect(found.message).toBe('vertiport no. 1 of the file: id must not be empty')
   expect(found.path).toEqual(['vertiports', 0, 'id'])
@@ -69,7 +69,7 @@ it('calls what is counted by what it is, and what is empty so', () => {
   )
 })
 
-it('takes the line from the reader of TOML', () => {
+it('takes the line from the TOML parser', () => {
   const unknown = find(
     'line 46, column 1: vertiports[3].stnds: unknown field `stnds`, expected one of `id`',
     'V106',
@@ -79,7 +79,7 @@ it('takes the line from the reader of TOML', () => {
   expect(find('line 9, column 12: unclosed table, expected `]`', 'V105')).toMatchObject({ path: [], line: 9 })
 })
 
-it('knows what else the service says', () => {
+it('handles other messages of the service', () => {
   const zone = {
     code: 'V601',
     detail: 'the request is not understood: "America/Nowhere" is no time zone',
@@ -91,7 +91,7 @@ it('knows what else the service says', () => {
   expect(warning).toMatchObject({ kind: 'warning', path: ['vertiports', 6] })
 })
 
-it('is shown at its field and at those that it is about', () => {
+it('is shown at its field and at the entry around it', () => {
   const finding = find('vertiport "JFK": stands must be at least 1, found 0')
   expect(findingAt([finding], ['vertiports', 3, 'stands'])).toBe(finding)
   expect(findingAt([finding], ['vertiports', 3])).toBe(finding)

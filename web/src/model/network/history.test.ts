@@ -1,7 +1,7 @@
 import { expect, it } from 'vitest'
 import { History } from './history'
 
-it('takes back and does again', () => {
+it('undoes and redoes', () => {
   const one = History.of('a').then('b', 'x', 0).then('c', 'y', 10)
   expect(one.undo().text).toBe('b')
   expect(one.undo().undo().text).toBe('a')
@@ -10,7 +10,7 @@ it('takes back and does again', () => {
   expect(one.undo().then('d', 'z', 20).canRedo).toBe(false)
 })
 
-it('takes strokes of one field that follow each other soon for one step', () => {
+it('merges quick edits of one field into one step', () => {
   const one = History.of('1').then('12', 'stands', 0).then('123', 'stands', 400)
   expect(one.undo().text).toBe('1')
   expect(one.then('1234', 'stands', 5000).undo().text).toBe('123')

@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs'
 import { expect, it } from 'vitest'
 import { coloured } from './ink'
 
-it('knows remarks, headings, texts and numbers', () => {
+it('recognises comments, headings, texts and numbers', () => {
   const kinds = coloured(
     '[[fleet]] # all "of" them\ntype = "a # b"\ncount = 1.5\nbusy = true\nlist = [1, 2]\n',
   )

@@ -53,7 +53,7 @@ describe('vertiports', () => {
     expect(draftOf(plane.value).isGlobe).toBe(false)
   })
 
-  it('come with their weight, or with their row of demand', () => {
+  it('are added with their weight, or with their row of demand', () => {
     const file = after(read('new-york'), addVertiport(read('new-york'), { east: -73.9, north: 40.8 }))
     const draft = draftOf(file.value)
     expect(draft.vertiports.at(-1)).toMatchObject({ id: 'V1', latitude: 40.8, longitude: -73.9, stands: 4 })
@@ -67,7 +67,7 @@ describe('vertiports', () => {
     )
   })
 
-  it('take all that is theirs with them', () => {
+  it('are removed with all references to them', () => {
     const file = after(read('new-york'), removeVertiport(read('new-york'), 6))
     expect(file.text).not.toContain('"TEB"')
     expect(member(file.value, ['daily_demand', 'gravity', 'weights'])).toEqual([3, 3, 2, 4, 3, 3, 1, 1])
@@ -79,7 +79,7 @@ describe('vertiports', () => {
     expect(pairs.text).not.toContain('hourly_demand.pairs')
   })
 
-  it('keep all that is theirs under another id', () => {
+  it('keep all references under another id', () => {
     const file = after(read('new-york'), renameVertiport(read('new-york'), 6, 'KTEB'))
     expect(file.text).not.toContain('"TEB"')
     expect(file.text.match(/"KTEB"/g)).toHaveLength(3)
@@ -92,7 +92,7 @@ describe('vertiports', () => {
     expect(draftOf(types.value).fleet[0]?.type).toBe('archer')
   })
 
-  it('get ids that are free', () => {
+  it('get unused ids', () => {
     expect(freeId([])).toBe('V1')
     expect(freeId(['V1', 'V9'])).toBe('V10')
     expect(freeId(['JFK'])).toBe('V1')
@@ -101,7 +101,7 @@ describe('vertiports', () => {
 })
 
 describe('demand', () => {
-  it('is that of the service in all models', () => {
+  it('equals that of the service in all models', () => {
     // The totals that the service reports for the shipped networks.
     expect(sum(byPeriod(draftOf(read('new-york').value)))).toBeCloseTo(7752, 6)
     expect(sum(byPeriod(draftOf(read('paper').value)))).toBe(26100)
@@ -116,7 +116,7 @@ describe('demand', () => {
     ])
   })
 
-  it('is the same as a table of pairs', () => {
+  it('is unchanged when converted to a table of pairs', () => {
     for (const name of ['new-york', 'paper', 'as-coded', 'paris']) {
       const file = read(name)
       const table = new TomlFile(withDailyDemand(file))
