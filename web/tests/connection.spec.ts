@@ -39,7 +39,9 @@ test('a service that stops a stream gives the reason', async ({ page, program, f
   await fleet.ask('DELETE', `/v1/days/${fleet.day}`)
   await program.kill()
   await program.run()
-  await expect(page.getByRole('alert')).toContainText(/the service sends no more of this day\. It says: /)
+  await expect(page.getByRole('alert')).toContainText(
+    /the service has stopped sending this day\. Its reason: /,
+  )
 })
 
 test('two consoles on one day show each other’s decisions', async ({ page, context, program, fleet }) => {
@@ -83,7 +85,7 @@ test('a token is requested, kept out of addresses, and limits the actions', asyn
   await expect(page.getByText('The token is invalid or revoked')).toBeVisible()
   await field.fill(looks)
   await page.getByRole('button', { name: 'Sign in' }).click()
-  await expect(page.getByText('You may look at this day')).toBeVisible()
+  await expect(page.getByText('You may view this day')).toBeVisible()
   await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeHidden()
   expect(page.url()).not.toContain('vf_')
 

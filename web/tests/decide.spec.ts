@@ -16,7 +16,7 @@ test('accepting takes the decision of the policy', async ({ page, context, progr
 
   // Without tokens the service cannot identify users. This console marks its own decisions only.
   await fleet.decide('A02')
-  const lately = page.getByRole('region', { name: 'Decided lately' }).getByRole('listitem')
+  const lately = page.getByRole('region', { name: 'Recent decisions' }).getByRole('listitem')
   await expect(lately.filter({ hasText: 'A01' })).toContainText('you · prices')
   await expect(lately.filter({ hasText: 'A02' })).toContainText('as prices advised')
 
@@ -26,10 +26,10 @@ test('accepting takes the decision of the policy', async ({ page, context, progr
   await expect(lately.filter({ hasText: 'A02' })).toContainText('as prices advised')
   const other = await context.newPage()
   await open(other, program, fleet)
-  const there = other.getByRole('region', { name: 'Decided lately' }).getByRole('listitem')
+  const there = other.getByRole('region', { name: 'Recent decisions' }).getByRole('listitem')
   await expect(there.filter({ hasText: 'A01' })).toContainText('as prices advised')
   await page.keyboard.press('u')
-  await expect(page.getByText('The decision of A01 is taken back.')).toBeVisible()
+  await expect(page.getByText('The decision of A01 has been undone.')).toBeVisible()
 })
 
 test('advice that has only just appeared cannot be accepted yet, and its button is disabled', async ({
@@ -145,7 +145,7 @@ test('a decision can be undone until the aircraft departs', async ({ page, progr
   await page.keyboard.press('a')
   await expect(panel(page).getByRole('heading', { name: /^A02/ })).toBeVisible()
   await page.keyboard.press('u')
-  await expect(page.getByText('The decision of A01 is taken back.')).toBeVisible()
+  await expect(page.getByText('The decision of A01 has been undone.')).toBeVisible()
   expect((await fleet.events()).map((one) => one.event.type)).toEqual(['decided', 'undone'])
 
   await expect(page.getByRole('region', { name: 'Needs a decision' }).locator('.badge')).toHaveText('6')
@@ -154,7 +154,7 @@ test('a decision can be undone until the aircraft departs', async ({ page, progr
   await page.waitForTimeout(400)
   await page.keyboard.press('a')
   const lately = page
-    .getByRole('region', { name: 'Decided lately' })
+    .getByRole('region', { name: 'Recent decisions' })
     .getByRole('listitem')
     .filter({ hasText: 'A01' })
   await expect(lately.getByRole('button', { name: 'Undo' })).toBeVisible()
@@ -178,11 +178,11 @@ test('nothing moves under the pointer', async ({ page, program, fleet }) => {
   await accept.hover()
   const before = await accept.boundingBox()
   await fleet.report({ type: 'closed', routes: { vertiport: to } })
-  await expect(panel(page).getByText(/The day has moved on/)).toBeVisible()
+  await expect(panel(page).getByText(/The day has advanced/)).toBeVisible()
   expect(await choice.innerText()).toBe(advised)
   expect(await accept.boundingBox()).toEqual(before)
   await expect(accept).toBeDisabled()
   await page.keyboard.press('r')
   await expect(choice).not.toHaveText(advised)
-  await expect(panel(page).getByText(/The day has moved on/)).toBeHidden()
+  await expect(panel(page).getByText(/The day has advanced/)).toBeHidden()
 })

@@ -26,7 +26,7 @@ test('both continuations of a day are visible at once, with the number of differ
   for (const side of sides) {
     const timeline = page.getByRole('region', { name: side, exact: true })
     await expect(timeline.getByRole('application')).toBeInViewport({ ratio: 0.99 })
-    await expect(timeline.getByText(/something else: \d+ of \d+ flights and holds until 08:00/)).toBeVisible()
+    await expect(timeline.getByText(/different: \d+ of \d+ flights and holds until 08:00/)).toBeVisible()
   }
   await expectAccessible(page)
 })
@@ -62,9 +62,9 @@ test('a comparison without differences says so', async ({ page, program, fleet }
   await open(page, program, fleet, 'what-if')
   await page.getByRole('button', { name: 'Compare', exact: true }).click()
   await expect(
-    page.getByText('The day goes on in the same way with the changes and without them.'),
+    page.getByText('The day continues in the same way with and without the changes.'),
   ).toBeVisible()
-  await expect(page.getByText(/something else/)).toHaveCount(0)
+  await expect(page.getByText(/different:/)).toHaveCount(0)
 })
 
 test.describe('the replay of a live day', () => {
@@ -72,28 +72,28 @@ test.describe('the replay of a live day', () => {
 
   test('shows the plan of a policy, also from a link', async ({ page, program, fleet }) => {
     await open(page, program, fleet, 'replay')
-    await page.getByLabel('Beside it').selectOption('greedy')
+    await page.getByLabel('Compare with').selectOption('greedy')
     await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
     const planned = 'greedy, as planned in the morning'
     await expect(page.getByRole('definition').filter({ hasText: planned })).toBeVisible()
-    await expect(
-      page.getByText(/^What greedy would have done if the day had gone as it was forecast/),
-    ).toBeVisible()
+    await expect(page.getByText(/^The decisions of greedy if the day had gone as forecast/)).toBeVisible()
     await expect(
       page.getByText(
-        /^By 07:\d\d:\d\d greedy, as planned in the morning, would have earned (\$[\d,]+ (more|less)|neither more nor less) than the day has earned\.$/,
+        /^By 07:\d\d:\d\d greedy, as planned in the morning, would have earned (\$[\d,]+ (more|less)|neither more nor less) than the actual day\.$/,
       ),
     ).toBeVisible()
-    await expect(page.getByText('The day was not as forecast; no one decision is worth this.')).toBeVisible()
+    await expect(
+      page.getByText('The day differed from the forecast, so this is not the effect of a single decision.'),
+    ).toBeVisible()
     await expect(page.getByText(/With this decision alone/)).toHaveCount(0)
     await expect(page).toHaveURL(/with=greedy/)
     await expectAccessible(page)
     const address = page.url()
     await page.goto('about:blank')
     await page.goto(address)
-    await expect(page.getByLabel('Beside it')).toHaveValue('greedy')
+    await expect(page.getByLabel('Compare with')).toHaveValue('greedy')
     await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
-    await page.getByLabel('Beside it').selectOption('')
+    await page.getByLabel('Compare with').selectOption('')
     await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
     await expect(page).not.toHaveURL(/with=/)
   })
@@ -114,10 +114,10 @@ test.describe('the replay of a live day', () => {
       }),
     )
     await open(page, program, fleet, 'replay')
-    await page.getByLabel('Beside it').selectOption('rolling')
+    await page.getByLabel('Compare with').selectOption('rolling')
     await expect(page.getByText('Error V307')).toBeVisible()
     await expect(page.getByText('ask another')).toBeVisible()
-    await expect(page.getByLabel('Beside it')).toHaveValue('')
+    await expect(page.getByLabel('Compare with')).toHaveValue('')
     await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
   })
 
@@ -130,7 +130,7 @@ test.describe('the replay of a live day', () => {
     await open(page, program, fleet, 'replay')
     const files = page.getByLabel('Choose files')
     await files.setInputFiles({ name: 'mine.csv', mimeType: 'text/csv', buffer: Buffer.from(trace) })
-    const beside = page.getByLabel('Beside it')
+    const beside = page.getByLabel('Compare with')
     await expect(beside.getByRole('option', { name: 'mine, from a file' })).toBeAttached()
     await expect(page.getByRole('definition').filter({ hasText: /^mine$/ })).toBeVisible()
     await beside.selectOption({ label: 'greedy, as planned in the morning' })
@@ -143,15 +143,15 @@ test.describe('the replay of a live day', () => {
     await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
     await page.getByRole('button', { name: /^Back to small/ }).click()
     await expect(page.getByText('From files: tiny-1')).toHaveCount(0)
-    await expect(page.getByRole('definition').filter({ hasText: 'As it was' })).toBeVisible()
+    await expect(page.getByRole('definition').filter({ hasText: 'Actual day' })).toBeVisible()
     await expect(beside).toHaveValue('')
     await expect(beside.getByRole('option', { name: 'mine, from a file' })).toBeAttached()
   })
 
   test('reports an unknown policy in a link', async ({ page, program, fleet }) => {
     await page.goto(`${program.console}/#/day/${fleet.day}/replay?with=zzz`)
-    await expect(page.getByText('There is no policy “zzz” to show beside the day.')).toBeVisible()
-    await expect(page.getByLabel('Beside it')).toHaveValue('')
+    await expect(page.getByText('There is no policy “zzz” to compare with the day.')).toBeVisible()
+    await expect(page.getByLabel('Compare with')).toHaveValue('')
   })
 
   test('has one clock, which shows the time of the replay', async ({ page, program, fleet }) => {
@@ -164,7 +164,7 @@ test.describe('the replay of a live day', () => {
     await open(page, program, fleet, 'replay')
     const add = page.getByRole('button', { name: 'Add files' })
     await expect(add).toHaveAccessibleDescription(
-      /one or more traces of it \(\.csv\).*vertifleet simulate day\.json/,
+      /one or more of its traces \(\.csv\).*vertifleet simulate day\.json/,
     )
     const hint = page.getByRole('tooltip')
     await expect(hint).toBeHidden()

@@ -10,8 +10,8 @@ test('a day that is over shows its result, and none of its decisions can be undo
 }) => {
   await open(page, program, fleet)
   const figures = page.getByLabel('The day in figures')
-  await expect(figures).toContainText('At most from now on')
-  await expect(figures).toContainText('of flights sent off')
+  await expect(figures).toContainText('Upper bound')
+  await expect(figures).toContainText('of dispatched flights')
   await fleet.playToTheEnd()
 
   const over = page.getByRole('region', { name: 'The day is over' })
@@ -20,10 +20,12 @@ test('a day that is over shows its result, and none of its decisions can be undo
   await expect(over).toContainText(dollars(totals.profit_usd))
   await expect(over).toContainText(`Passengers ${count(totals.passengers)}`)
   await expect(over).toContainText(`Over since ${String(now)}`)
-  await expect(figures).not.toContainText('At most')
+  await expect(figures).not.toContainText('Upper bound')
   await expect(page.getByText('No one is waiting')).toHaveCount(0)
   await expect(page.getByText('Ready next')).toHaveCount(0)
-  await expect(page.getByRole('region', { name: 'Decided lately' }).getByRole('listitem')).not.toHaveCount(0)
+  await expect(page.getByRole('region', { name: 'Recent decisions' }).getByRole('listitem')).not.toHaveCount(
+    0,
+  )
   await expect(page.getByRole('button', { name: 'Undo' })).toHaveCount(0)
   await expectAccessible(page)
 

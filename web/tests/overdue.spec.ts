@@ -49,7 +49,7 @@ test('an aircraft without a reported landing is in the air and overdue in every 
   await expect(vertiport(page, 'East')).toContainText('1 overdue')
   await page.keyboard.press('w')
   const alerts = page.getByRole('region', { name: 'Alerts' })
-  await expect(alerts).toContainText('A01 was to land at East at 06:41, and no landing is reported')
+  await expect(alerts).toContainText('A01 was due to land at East at 06:41, but no landing is reported')
   await expectAccessible(page)
   await page.keyboard.press('Escape')
   await expect(alerts).toBeHidden()
@@ -65,7 +65,7 @@ test('an aircraft without a reported landing is in the air and overdue in every 
   await page.getByRole('combobox', { name: /Find a command/ }).fill('a01')
   await page.keyboard.press('Enter')
   const side = page.getByRole('region', { name: 'Decision', exact: true })
-  await expect(side).toContainText('in the air to East, was to land at 06:41:40')
+  await expect(side).toContainText('in the air to East, landing was due at 06:41:40')
   await expect(side).toContainText('overdue by 23 min')
   await expect(page.getByText(/Ready next/)).not.toContainText('A01 now')
 

@@ -44,7 +44,7 @@ test('the scrubber moves the time, by key and by pointer', async ({ page }) => {
 test('steps move between decisions', async ({ page }) => {
   await page.goto(`${address}#policy=prices&with=`)
   const clock = page.getByRole('time')
-  await page.getByRole('button', { name: 'To the next decision' }).click()
+  await page.getByRole('button', { name: 'Next decision' }).click()
   await expect(clock).toHaveText('07:19:21')
   await page.keyboard.press('Tab')
   await page.locator('h1').click({ force: true })
@@ -57,17 +57,17 @@ test('steps move between decisions', async ({ page }) => {
 test('the best play is shown first, next to the second best', async ({ page }) => {
   await page.goto(address)
   await expect(page.getByLabel('Policy', { exact: true })).toHaveValue('greedy')
-  await expect(page.getByLabel('Beside it')).toHaveValue('prices')
+  await expect(page.getByLabel('Compare with')).toHaveValue('prices')
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
 })
 
 test('a link to a single policy shows it alone', async ({ page }) => {
   await page.goto(address)
-  await page.getByLabel('Beside it').selectOption('')
+  await page.getByLabel('Compare with').selectOption('')
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
   await expect(page).toHaveURL(/with=(&|$)/)
   await page.reload()
-  await expect(page.getByLabel('Beside it')).toHaveValue('')
+  await expect(page.getByLabel('Compare with')).toHaveValue('')
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(1)
 })
 
@@ -84,14 +84,14 @@ test('a link opens the same time', async ({ page }) => {
   await page.goto(`${address}#policy=greedy&with=prices&at=08:11:30`)
   await expect(page.getByRole('time')).toHaveText('08:11:30')
   await expect(page.getByLabel('Policy', { exact: true })).toHaveValue('greedy')
-  await page.getByRole('button', { name: 'To the next decision' }).click()
+  await page.getByRole('button', { name: 'Next decision' }).click()
   await expect(page).toHaveURL(/at=08:11:55/)
   await expect(page).toHaveURL(/with=prices/)
 })
 
 test('two policies are compared, with their first difference and its effect on profit', async ({ page }) => {
   await page.goto(`${address}#policy=prices&with=`)
-  await page.getByLabel('Beside it').selectOption('greedy')
+  await page.getByLabel('Compare with').selectOption('greedy')
   await expect(page.getByRole('region', { name: 'Map' })).toHaveCount(2)
   const difference = page.getByRole('region', { name: 'Where they first differ' })
   await expect(difference).toContainText(
@@ -129,7 +129,7 @@ test('files of a day are opened, and faulty ones are listed', async ({ page, day
     },
   ])
   await expect(page.getByRole('alert').getByRole('listitem')).toHaveText([
-    /^hello\.json: It is no scenario file/,
+    /^hello\.json: It is not a scenario file/,
     /^notes\.csv: It is neither a trace nor a scenario: it begins with “a,b”/,
   ])
   await files.setInputFiles([
@@ -185,7 +185,7 @@ test('a report of the program opens from disk and requests nothing', async ({ pa
   const frame = page.frameLocator('iframe[title=Replay]')
   await page.getByTitle('Replay').scrollIntoViewIfNeeded()
   await expect(frame.getByLabel('Day', { exact: true })).toHaveValue('tiny-1')
-  await frame.getByLabel('Beside it').selectOption({ index: 1 })
+  await frame.getByLabel('Compare with').selectOption({ index: 1 })
   await expect(frame.getByRole('region', { name: 'Map' })).toHaveCount(2)
   await expect(frame.getByRole('button', { name: 'Link' })).toHaveCount(1)
   await page.getByRole('link', { name: 'replay.html' }).click()

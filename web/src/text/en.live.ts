@@ -10,7 +10,7 @@ export const alerts = {
   acknowledge: 'Acknowledge',
   acknowledgeAll: 'Acknowledge all',
   acknowledged: 'acknowledged',
-  age: 'For how long it has been so',
+  age: 'Time since it began',
   severities: { critical: 'Critical', warning: 'Warning', notice: 'Notice' },
   counts: {
     critical: (number: number) => plural(number, 'critical alert', 'critical alerts'),
@@ -20,12 +20,12 @@ export const alerts = {
   said: {
     overdue: {
       departure: (aircraft: string, to: string, due: string) =>
-        `${aircraft} was to leave for ${to} at ${due}, and no departure is reported`,
+        `${aircraft} was due to leave for ${to} at ${due}, but no departure is reported`,
       landing: (aircraft: string, to: string, due: string) =>
-        `${aircraft} was to land at ${to} at ${due}, and no landing is reported`,
+        `${aircraft} was due to land at ${to} at ${due}, but no landing is reported`,
     },
     over_full: (vertiport: string, taken: number, stands: number) =>
-      `${vertiport} has ${taken} aircraft, there or on the way, for ${plural(stands, 'stand', 'stands')}`,
+      `${vertiport} has ${taken} aircraft, standing or on the way, for ${plural(stands, 'stand', 'stands')}`,
     full: (vertiport: string, stands: number) =>
       `${vertiport} is full: ${stands === 1 ? 'its stand' : `each of its ${stands} stands`} is taken or promised`,
     closed: (what: string, until: string | undefined, underWay: number) =>
@@ -41,7 +41,7 @@ export const alerts = {
 
 export const whatIf = {
   explanation:
-    'Put changes together, and see how the day would go on with them and without them. To compare changes nothing in the day.',
+    'Combine changes and compare how the day would continue with and without them. Comparing does not change the day.',
   change: 'Change',
   changes: 'Changes',
   kinds: {
@@ -62,28 +62,28 @@ export const whatIf = {
   untilFurther: 'further notice',
   period: 'Want to fly at',
   free: (vertiport: string, stands: number) => `${vertiport} (${Math.max(0, stands)} free)`,
-  wrongTime: 'A time is written as hours and minutes: 12:30.',
+  wrongTime: 'Enter the time as hours and minutes, for example 12:30.',
   add: 'Add the change',
   remove: (change: string) => `Remove: ${change}`,
-  noChanges: 'No change yet; another policy alone can be compared too.',
+  noChanges: 'No changes yet. You can also compare another policy alone.',
   policy: 'Policy that would decide',
   compare: 'Compare',
   comparing: 'Comparing…',
   report: (events: number) => (events === 1 ? 'Report it' : `Report all ${events}`),
   reportHint:
-    'Tells the day that the events have happened. Aircraft and stands cannot be reported like this.',
+    'Reports the events to the day as having happened. Changes of aircraft and stands cannot be reported.',
   reported: (events: number) => `${plural(events, 'event is', 'events are')} reported to the day.`,
   result: 'Comparison',
-  empty: 'The comparison comes up here.',
-  old: (time: string) => `Compared as of ${time}; the day has moved on since.`,
-  other: 'The changes are not those that were compared.',
+  empty: 'The comparison appears here.',
+  old: (time: string) => `Compared as of ${time}; the day has advanced since.`,
+  other: 'The changes differ from those compared.',
   again: 'Compare again',
-  moreAircraft: (id: string, at: string) => `${id} more, from ${at} in the morning`,
+  moreAircraft: (id: string, at: string) => `additional aircraft ${id}, at ${at} in the morning`,
   moreStands: (vertiport: string, stands: number) => `${vertiport} with ${plural(stands, 'stand', 'stands')}`,
   columns: { number: 'The whole day', asItIs: 'As it is', whatIf: 'What if', difference: 'Difference' },
   rows: {
     profit: 'Profit',
-    bound: 'At most',
+    bound: 'Upper bound',
     passengers: 'Passengers served',
     spilled: 'Passengers spilled',
     flights: 'Flights',
@@ -95,7 +95,7 @@ export const whatIf = {
   points: (difference: string) => `${difference} points`,
   differs: (time: string, one: string, other: string) =>
     `They first differ at ${time}: ${one}; what if: ${other}.`,
-  same: 'The day goes on in the same way with the changes and without them.',
+  same: 'The day continues in the same way with and without the changes.',
   nothing: 'nothing',
   holds: (aircraft: string, at: string, time: string) => `${aircraft} holds at ${at} at ${time}`,
   flies: (aircraft: string, to: string, time: string, passengers: number) =>
@@ -115,6 +115,6 @@ export const whatIf = {
     more: (number: number) => `and ${number} more`,
   },
   elsewhere: (differing: number, all: number, time: string) =>
-    `something else: ${differing.toLocaleString('en-US')} of ${plural(all, 'flight or hold', 'flights and holds')} until ${time}`,
-  alike: (differing: number) => `other time or passengers: ${differing.toLocaleString('en-US')}`,
+    `different: ${differing.toLocaleString('en-US')} of ${plural(all, 'flight or hold', 'flights and holds')} until ${time}`,
+  alike: (differing: number) => `different time or passengers: ${differing.toLocaleString('en-US')}`,
 }

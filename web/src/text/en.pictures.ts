@@ -26,8 +26,8 @@ export const map = {
   overdueOne: (aircraft: string, minutes: number) => `${aircraft} overdue by ${minutes} min`,
   late: (minutes: number) => `+${minutes} min`,
   due: {
-    departure: (time: string) => `was to take off at ${time}`,
-    landing: (time: string) => `was to land at ${time}`,
+    departure: (time: string) => `take-off was due at ${time}`,
+    landing: (time: string) => `landing was due at ${time}`,
   },
   closed: (number: number) =>
     number === 0 ? 'no route is closed' : `${plural(number, 'route', 'routes')} closed`,
@@ -43,7 +43,7 @@ export const map = {
     waiting: 'waiting for a decision',
     promised: 'stand promised',
     free: 'stand free',
-    demand: 'passengers waiting, strong where they are',
+    demand: 'waiting passengers, strongest at their origin',
     closed: 'route closed',
   },
   miles: (number: string) => `${number} mi`,
@@ -52,7 +52,7 @@ export const map = {
   failedBasemap: 'The base map could not be loaded; the bundled one is shown.',
   aircraftOfType: (id: string, type: string) => `${id}, aircraft of type “${type}”`,
   phases: {
-    waiting: 'ready, waits for a decision',
+    waiting: 'ready, waiting for a decision',
     charging: states.charging,
     holding: states.holding,
     delayed: states.delayed,
@@ -95,7 +95,7 @@ export const timeline = {
   },
   nothing: 'Nothing is selected.',
   aircraft: 'Aircraft',
-  noLegs: 'It has no flight.',
+  noLegs: 'No flights.',
   columns: {
     what: 'What',
     begins: 'Begins',
@@ -128,26 +128,26 @@ export const timeline = {
   nothingThere: (other: string) => `differs from “${other}”: nothing there yet`,
   late: (minutes: number) => `+${minutes}`,
   stand: (stand: string) => `stand ${stand}`,
-  over: 'no stand for it',
+  over: 'no free stand',
 }
 
 export const replay = {
   title: 'Replay',
   day: 'Day',
   policy: 'Policy',
-  withPolicy: 'Beside it',
+  withPolicy: 'Compare with',
   alone: 'nothing',
   choice: (policy: string, profit: string) => `${policy} · ${profit}`,
   transport: 'Play the day',
   play: 'Play',
   pause: 'Pause',
-  next: 'To the next decision',
-  former: 'To the former decision',
+  next: 'Next decision',
+  former: 'Previous decision',
   faster: 'Play faster',
   slower: 'Play slower',
-  begin: 'To the beginning of the day',
-  finish: 'To the end of the day',
-  speed: 'Speed, seconds of the day in a second',
+  begin: 'Beginning of the day',
+  finish: 'End of the day',
+  speed: 'Speed, seconds of the day per second',
   times: (speed: number) => `${speed.toLocaleString('en-US')} ×`,
   link: 'Copy a link to this moment',
   linkShort: 'Link',
@@ -157,9 +157,9 @@ export const replay = {
   legend: {
     profit: 'profit so far',
     difference: (one: string, other: string, now: string) =>
-      `who is ahead: above the middle “${one}”, below it “${other}”; ${now}`,
-    ahead: (time: string, who: string, dollars: string) => `at ${time} “${who}” by ${dollars}`,
-    level: (time: string) => `at ${time} neither`,
+      `lead of “${one}” above the middle, of “${other}” below it; ${now}`,
+    ahead: (time: string, who: string, dollars: string) => `“${who}” leads by ${dollars} at ${time}`,
+    level: (time: string) => `neither leads at ${time}`,
     carried: 'passengers carried',
     wanted: 'passengers who want to fly',
   },
@@ -185,53 +185,51 @@ export const replay = {
       : `by the end of the day, with all later decisions, ${who} has earned ${dollars} more`,
   dayPlan: (plan: string, difference: string, until: string | undefined) =>
     until === undefined
-      ? `Over the whole day ${plan}, would have earned ${difference} than the day earned.`
-      : `By ${until} ${plan}, would have earned ${difference} than the day has earned.`,
-  dayPlanWhy: 'The day was not as forecast; no one decision is worth this.',
+      ? `Over the whole day ${plan}, would have earned ${difference} than the actual day.`
+      : `By ${until} ${plan}, would have earned ${difference} than the actual day.`,
+  dayPlanWhy: 'The day differed from the forecast, so this is not the effect of a single decision.',
   dayOther: (one: string, other: string, difference: string, until: string | undefined) =>
     `${until === undefined ? 'Over the whole day' : `By ${until}`} “${one}” has earned ${difference} than “${other}”.`,
-  dayOtherWhy:
-    'They were not played with the same passengers and events, so this is not the worth of a decision.',
+  dayOtherWhy: 'They had different passengers and events, so this is not the effect of a single decision.',
   moreMoney: (dollars: string) => `${dollars} more`,
   lessMoney: (dollars: string) => `${dollars} less`,
   sameMoney: 'neither more nor less',
-  same: (one: string, other: string) => `“${one}” and “${other}” send every aircraft the same ways.`,
+  same: (one: string, other: string) => `“${one}” and “${other}” send every aircraft on the same routes.`,
   goToDifference: 'To the first difference',
   explanation:
-    'Drop a scenario file and one or more traces of it here, or choose them. Nothing is sent anywhere: they are read by this page.',
+    'Drop a scenario file and one or more of its traces here, or choose them. This page reads them and sends nothing.',
   make: 'The program writes both:',
   choose: 'Choose files',
   add: 'Add files',
   addHint:
-    'Shows other policies on this day, from files: one or more traces of it (.csv), which can then be chosen beside what is shown. A scenario file (.json) with traces of its own opens as another day. You can also drop files anywhere on this page. They are not sent anywhere.',
+    'Adds other policies to this day from one or more of its traces (.csv), for comparison. A scenario file (.json) with its traces opens as another day. You can also drop files anywhere on this page. Nothing is sent.',
   addMake: 'The program writes the scenario and the traces:',
   addWrong:
-    'If a file is something else, or a trace is of another day, the page says of each file what is wrong with it, and goes on showing what it shows.',
+    'If a file is invalid, or a trace belongs to another day, the page lists the problem of each file and keeps the current day.',
   fromFiles: 'From files:',
   backToDay: (day: string) => `Back to ${day}`,
   traceOf: (name: string) => `${name}, from a file`,
-  unknownBeside: (name: string) => `There is no policy “${name}” to show beside the day.`,
-  asItWas: 'As it was',
+  unknownBeside: (name: string) => `There is no policy “${name}” to compare with the day.`,
+  asItWas: 'Actual day',
   planned: (policy: string) => `${policy}, as planned in the morning`,
   plannedExplanation: (policy: string) =>
-    `What ${policy} would have done if the day had gone as it was forecast in the morning.`,
-  besideHint:
-    'Shows beside the day what a policy would have done if the day had gone as it was forecast in the morning.',
-  planning: (policy: string) => `${policy} plans the day…`,
+    `The decisions of ${policy} if the day had gone as forecast in the morning.`,
+  besideHint: 'Compares the day with a policy’s decisions if the day had gone as forecast in the morning.',
+  planning: (policy: string) => `Planning the day with ${policy}…`,
   daysOfService: 'Days of this service',
   inFile: (file: string, fault: string) => `${file}: ${fault}`,
   faults: {
-    'no-json': 'It begins as a scenario file (.json) does, and cannot be read as JSON. Is it whole?',
+    'no-json': 'It begins like a scenario file (.json), but is not valid JSON. Is it complete?',
     'no-scenario': (format: string | undefined) =>
       format === undefined
-        ? 'It is no scenario file: it does not say that it is one, as “format”, or lacks what belongs to one.'
-        : `It is no scenario file that can be replayed: its “format” is “${format}”.`,
+        ? 'It is not a scenario file: “format” or other required members are missing.'
+        : `It is not a scenario file for replays: its “format” is “${format}”.`,
     'second-scenario': (first: string) =>
-      `It is a second scenario file beside ${first}. A replay shows one day: choose one scenario and its traces.`,
+      `It is a second scenario file in addition to ${first}. A replay shows one day: choose one scenario and its traces.`,
     'scenario-missing':
       'The scenario file (.json) is missing. Choose it together with the traces of its day.',
     'no-trace': (begins: string) =>
-      `It is neither a trace nor a scenario: ${begins === '' ? 'its first line is empty' : `it begins with “${begins}”`}, and a trace begins with “time,aircraft,”.`,
+      `It is neither a trace nor a scenario: ${begins === '' ? 'its first line is empty' : `it begins with “${begins}”`}, but a trace begins with “time,aircraft,”.`,
     'trace-missing':
       'A trace (.csv) is missing. Choose it together with its scenario; simulate --trace writes one.',
     'missing-column': (column: string) => `The trace has no column “${column}”.`,

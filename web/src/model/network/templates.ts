@@ -6,7 +6,7 @@ start = "06:00:00"
 end = "20:00:00"                # the last instant at which an aircraft may decide to leave
 takeoff_s = 300                 # boarding, taxi and climb
 landing_s = 300
-hold_s = 600                    # an aircraft that stays is asked again after this time
+hold_s = 600                    # a holding aircraft needs another decision after this time
 `
 
 const FLEET = `# assumption: a pilot and 4 passengers, a range of 100 miles.
@@ -31,7 +31,7 @@ fare_demand_weight = 0
 energy_price_usd_per_kwh = 0.2
 `
 
-const DEMAND = `# assumption: two rush hours. The passengers of a day are shared out by the product of two vertiports' weights.
+const DEMAND = `# assumption: two rush hours. Passengers of a day are distributed by the product of two vertiports' weights.
 [daily_demand]
 periods = [
     "06:00:00", "07:00:00", "08:00:00", "09:00:00", "10:00:00", "11:00:00", "12:00:00", "13:00:00",
