@@ -10,12 +10,12 @@ import { expect, test } from './support/test'
 const PATIENCE = { timeout: 20_000 }
 
 /** A page that records its errors. */
-async function newPage(browser: Browser): Promise<{ page: Page; wrongs: string[] }> {
+async function newPage(browser: Browser): Promise<{ page: Page; pageErrors: string[] }> {
   const page = await browser.newPage()
   await page.setViewport({ width: 1280, height: 800 })
-  const wrongs: string[] = []
-  page.on('pageerror', (error) => wrongs.push(String(error)))
-  return { page, wrongs }
+  const pageErrors: string[] = []
+  page.on('pageerror', (error) => pageErrors.push(String(error)))
+  return { page, pageErrors }
 }
 
 for (const [name, launch] of Object.entries(others)) {
@@ -32,7 +32,7 @@ for (const [name, launch] of Object.entries(others)) {
       try {
         days.run('scenario', fixture('tiny.toml'), '--seed', '1', '-o', 'day.json')
         days.run('simulate', 'day.json', '--policy', 'greedy', '--report', 'day.html')
-        const { page, wrongs } = await newPage(browser)
+        const { page, pageErrors } = await newPage(browser)
         await page.goto(pathToFileURL(days.path('day.html')).href)
         const shown = () =>
           page.evaluate(() => {
@@ -50,7 +50,7 @@ for (const [name, launch] of Object.entries(others)) {
         await expect.poll(() => decodeURIComponent(page.url()), PATIENCE).toMatch(/09:\d\d:\d\d/)
         await page.reload()
         await expect.poll(shown, PATIENCE).toMatch(/\$3,142/)
-        expect(wrongs).toEqual([])
+        expect(pageErrors).toEqual([])
         await page.close()
       } finally {
         days.remove()
@@ -58,7 +58,7 @@ for (const [name, launch] of Object.entries(others)) {
     })
 
     test('follows a day and decides', async ({ program, fleet }) => {
-      const { page, wrongs } = await newPage(browser)
+      const { page, pageErrors } = await newPage(browser)
       await page.goto(`${program.console}/#/day/${fleet.day}/now`)
       const words = () => page.evaluate(() => document.body.innerText)
       const summary = () =>
@@ -76,7 +76,7 @@ for (const [name, launch] of Object.entries(others)) {
       await expect.poll(words, PATIENCE).toMatch(/A02 .*North/)
       await page.reload()
       await expect.poll(summary, PATIENCE).toContain('1 in the air')
-      expect(wrongs).toEqual([])
+      expect(pageErrors).toEqual([])
       await page.close()
     })
   })

@@ -38,8 +38,8 @@ test('the first difference is shown in both continuations, by button and by key'
 }) => {
   await open(page, program, fleet, 'what-if')
   await closeSouth(page)
-  const said = await page.getByText(/They first differ at/).textContent()
-  const [, aircraft = ''] = /: (A\d+) /.exec(said ?? '') ?? []
+  const message = await page.getByText(/They first differ at/).textContent()
+  const [, aircraft = ''] = /: (A\d+) /.exec(message ?? '') ?? []
   for (const show of [
     () => page.getByRole('button', { name: 'Show the first' }).click(),
     () => page.keyboard.press('d'),
@@ -130,10 +130,10 @@ test.describe('the replay of a live day', () => {
     await open(page, program, fleet, 'replay')
     const files = page.getByLabel('Choose files')
     await files.setInputFiles({ name: 'mine.csv', mimeType: 'text/csv', buffer: Buffer.from(trace) })
-    const beside = page.getByLabel('Compare with')
-    await expect(beside.getByRole('option', { name: 'mine, from a file' })).toBeAttached()
+    const choice = page.getByLabel('Compare with')
+    await expect(choice.getByRole('option', { name: 'mine, from a file' })).toBeAttached()
     await expect(page.getByRole('definition').filter({ hasText: /^mine$/ })).toBeVisible()
-    await beside.selectOption({ label: 'greedy, as planned in the morning' })
+    await choice.selectOption({ label: 'greedy, as planned in the morning' })
     await expect(page.getByText(/^By 07:.*greedy, as planned in the morning, would have/)).toBeVisible()
     await page.getByLabel('Policy', { exact: true }).selectOption({ label: 'mine, from a file' })
     await expect(page.getByRole('definition').filter({ hasText: /^mine$/ })).toBeVisible()
@@ -144,8 +144,8 @@ test.describe('the replay of a live day', () => {
     await page.getByRole('button', { name: /^Back to small/ }).click()
     await expect(page.getByText('From files: tiny-1')).toHaveCount(0)
     await expect(page.getByRole('definition').filter({ hasText: 'Actual day' })).toBeVisible()
-    await expect(beside).toHaveValue('')
-    await expect(beside.getByRole('option', { name: 'mine, from a file' })).toBeAttached()
+    await expect(choice).toHaveValue('')
+    await expect(choice.getByRole('option', { name: 'mine, from a file' })).toBeAttached()
   })
 
   test('reports an unknown policy in a link', async ({ page, program, fleet }) => {

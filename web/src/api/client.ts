@@ -52,7 +52,7 @@ export class Service {
     const send = options.fetch ?? ((request: Request) => fetch(request))
     this.#client = createClient<paths>({
       baseUrl: options.base ?? '',
-      fetch: (request) => patiently(send, request),
+      fetch: (request) => sendWithRetries(send, request),
     })
     this.#client.use({
       onRequest: ({ request }) => {
@@ -243,7 +243,10 @@ function answer<T>(result: { data?: T; error?: unknown; response: Response }): T
  * Sends a request again if there is no answer and a repetition is safe: it only reads, or it has a
  * key.
  */
-async function patiently(send: (request: Request) => Promise<Response>, request: Request): Promise<Response> {
+async function sendWithRetries(
+  send: (request: Request) => Promise<Response>,
+  request: Request,
+): Promise<Response> {
   const isSafe = request.method === 'GET' || request.headers.has('Idempotency-Key')
   const pauses = isSafe ? PAUSES_MS : []
   for (const pause_ms of pauses) {

@@ -107,7 +107,7 @@ describe('alerts', () => {
     const event = { type: 'landed', aircraft: 'A02', time: '06:58:00' }
     const events = [{ seq: 4, event }] as unknown as TakenEvent[]
     const found = alerts({ notices, events, taken: [0, 7, 0] })
-    expect(found.map(({ matter }) => ('words' in matter ? matter.words : matter.kind))).toEqual([
+    expect(found.map(({ matter }) => ('text' in matter ? matter.text : matter.kind))).toEqual([
       'over_full',
       notices[0]?.text,
       notices[1]?.text,

@@ -20,7 +20,7 @@ export type Matter =
   | { kind: 'closed'; what: string; until: Seconds | undefined; underWay: number }
   | { kind: 'out_of_service'; aircraft: string; until: Seconds | undefined }
   | { kind: 'low_charge'; aircraft: string; to: string; percent: number }
-  | { kind: 'said'; words: string }
+  | { kind: 'notice'; text: string }
 
 export interface Alert {
   /** The same for every alert about the same subject, so that it is acknowledged only once. */
@@ -56,7 +56,7 @@ export function alertsOf(sources: Sources): Alert[] {
     ...outOfService(sources),
     ...legs.flatMap((leg) => lowCharge(leg, sources)),
   ]
-  const all = new Map([...found, ...said(sources, found)].map((alert) => [alert.key, alert]))
+  const all = new Map([...found, ...notices(sources, found)].map((alert) => [alert.key, alert]))
   const rank = ({ severity }: Alert) => SEVERITIES.indexOf(severity)
   return [...all.values()].sort(
     (one, other) => rank(one) - rank(other) || (one.since ?? Infinity) - (other.since ?? Infinity),
@@ -149,7 +149,7 @@ function lowCharge(leg: LegRecord, { record, scenario }: Sources): Alert[] {
  * Notices of the service: all that came with events. Of the current ones, those that no other alert
  * covers.
  */
-function said({ state, events, record }: Sources, found: readonly Alert[]): Alert[] {
+function notices({ state, events, record }: Sources, found: readonly Alert[]): Alert[] {
   const known = new Set(found.map(({ matter }) => aboutOf(matter)))
   return state.notices.flatMap(({ seq, text }): Alert[] => {
     const about = /^(?:aircraft|vertiport) "([^"]*)"/.exec(text)?.[1]
@@ -159,9 +159,9 @@ function said({ state, events, record }: Sources, found: readonly Alert[]): Aler
     const aircraft = record.aircraft.findIndex((one) => one.id === id)
     return [
       {
-        key: `said ${seq ?? 'now'} ${text}`,
+        key: `notice ${seq ?? 'now'} ${text}`,
         severity: 'warning',
-        matter: { kind: 'said', words: text },
+        matter: { kind: 'notice', text },
         since: event?.time == null ? undefined : timeOf(event.time),
         target: aircraft < 0 ? undefined : { kind: 'aircraft', aircraft },
       },

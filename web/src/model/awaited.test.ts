@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest'
 import type { TakenEvent } from '../api/types'
-import { aircraftAt, awaitedLike, minutesOverdue, recordAt } from './awaited'
+import { aircraftAt, withAwaitedReports, minutesOverdue, recordAt } from './awaited'
 import { fleetRows, standRows, type Bar } from './bars'
 import { Counts } from './counts'
 import { expectedNext, nextOf } from './decisions'
@@ -219,6 +219,6 @@ describe('a day on which several reports are late', () => {
 
   it('has the same delays in another course of the day', () => {
     const course = { ...record, legs: record.legs.map(withoutReport) }
-    expect(recordAt(awaitedLike(course, record), late)).toEqual(day)
+    expect(recordAt(withAwaitedReports(course, record), late)).toEqual(day)
   })
 })

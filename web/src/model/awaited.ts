@@ -75,7 +75,7 @@ export function recordAt(record: DayRecord, time: Seconds): DayRecord {
  * Applies the awaited reports of a day to another course of it, in which the same flights are under
  * way.
  */
-export function awaitedLike(record: DayRecord, day: DayRecord): DayRecord {
+export function withAwaitedReports(record: DayRecord, day: DayRecord): DayRecord {
   const underWay = day.legs.filter((leg) => leg.awaited !== undefined)
   const legs = record.legs.map((leg) => {
     const same = underWay.find((one) => one.aircraft === leg.aircraft && one.decided === leg.decided)

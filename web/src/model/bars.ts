@@ -99,7 +99,7 @@ export function standRows(record: DayRecord): StandRow[] {
   for (const stay of staysOf(record)) at(byVertiport, stay.vertiport).push(stay)
   return record.vertiports.flatMap((one, vertiport) => {
     const room = roomOf(one)
-    const lanes = shareOut(at(byVertiport, vertiport), room)
+    const lanes = assignStands(at(byVertiport, vertiport), room)
     return lanes.map((stays, stand): StandRow => {
       const bars = stays.flatMap((stay) => barsOf(stay, record))
       const outages = stays.flatMap((stay) => outagesOf(stay, record))
@@ -112,7 +112,7 @@ export function standRows(record: DayRecord): StandRow[] {
  * Assigns each stay the first free stand. Rows beyond the existing stands are added only if reports
  * place more aircraft there.
  */
-function shareOut(stays: readonly Stay[], room: number): Stay[][] {
+function assignStands(stays: readonly Stay[], room: number): Stay[][] {
   const lanes: Stay[][] = Array.from({ length: room }, () => [])
   for (const stay of stays) {
     const free = lanes.find((lane) => (lane.at(-1)?.leaves ?? -Infinity) <= stay.promised)

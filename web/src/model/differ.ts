@@ -30,7 +30,7 @@ export interface FirstDifference extends Difference {
 export function firstDifference(one: DayRecord, other: DayRecord): FirstDifference | undefined {
   const [ones, others] = [grouped(one.legs, aircraftOf), grouped(other.legs, aircraftOf)]
   const aircraft = [...new Set([...ones.keys(), ...others.keys()])]
-  const first = earliest(aircraft.flatMap((id) => partings(ones.get(id) ?? [], others.get(id) ?? [])))
+  const first = earliest(aircraft.flatMap((id) => firstDivergence(ones.get(id) ?? [], others.get(id) ?? [])))
   if (first === undefined) return undefined
   return {
     ...first,
@@ -40,7 +40,7 @@ export function firstDifference(one: DayRecord, other: DayRecord): FirstDifferen
 }
 
 /** The first legs of an aircraft with different destinations, as a list of at most one element. */
-function partings(ones: readonly LegRecord[], others: readonly LegRecord[]): Difference[] {
+function firstDivergence(ones: readonly LegRecord[], others: readonly LegRecord[]): Difference[] {
   const longer = ones.length > others.length ? ones : others
   const position = longer.findIndex((_, leg) => ones[leg]?.to !== others[leg]?.to)
   if (position === -1) return []
@@ -49,7 +49,7 @@ function partings(ones: readonly LegRecord[], others: readonly LegRecord[]): Dif
 }
 
 /** How a leg differs from another day. */
-export interface Differing {
+export interface DifferingLeg {
   /**
    * The aircraft's leg on the other day: the same route at another time or with other passengers,
    * otherwise the latest leg there.
@@ -60,11 +60,11 @@ export interface Differing {
 }
 
 /** Legs without an equal leg on the other day, by position in the record. */
-export type Otherwise = ReadonlyMap<number, Differing>
+export type DifferingLegs = ReadonlyMap<number, DifferingLeg>
 
 export interface Differences {
-  one: Otherwise
-  other: Otherwise
+  one: DifferingLegs
+  other: DifferingLegs
   first: Difference | undefined
 }
 
@@ -73,7 +73,7 @@ export interface Differences {
  * passengers.
  */
 export function differences(one: DayRecord, other: DayRecord): Differences {
-  const [inOne, inOther] = [otherwise(one, other), otherwise(other, one)]
+  const [inOne, inOther] = [differingLegs(one, other), differingLegs(other, one)]
   const first = earliest([
     ...[...inOne].map(([leg, { twin }]) => differenceOf(one.legs[leg], twin)),
     ...[...inOther].map(([leg, { twin }]) => swapped(differenceOf(other.legs[leg], twin))),
@@ -86,9 +86,9 @@ const SAME_S = 60
 /** A leg on the same route within this time counts as earlier or later, not as another route. */
 const NEAR_S = 900
 
-function otherwise(record: DayRecord, other: DayRecord): Otherwise {
+function differingLegs(record: DayRecord, other: DayRecord): DifferingLegs {
   const others = grouped(other.legs, aircraftOf)
-  const found = new Map<number, Differing>()
+  const found = new Map<number, DifferingLeg>()
   record.legs.forEach((leg, position) => {
     const twins = others.get(leg.aircraft) ?? []
     if (twins.some((twin) => isAlike(leg, twin))) return

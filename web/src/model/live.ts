@@ -20,10 +20,10 @@ export interface LiveSources {
 
 export function liveRecord({ scenario, reports, state, outlook, flown }: LiveSources): DayRecord {
   const known = outlook === undefined ? flown : legsOf(outlook, scenario)
-  const legs = new Legs(scenario, reports, known).broughtUpTo(state)
+  const legs = new Legs(scenario, reports, known).updatedTo(state)
   const frame = frameOf(scenario)
   const vertiports = frame.vertiports.map((one, at) => withStandsOf(one, state.vertiports[at]))
-  return { ...frame, vertiports, legs, ...whatIsKnown(scenario, reports, legs) }
+  return { ...frame, vertiports, legs, ...conditionsOf(scenario, reports, legs) }
 }
 
 /** A vertiport with its current stands, which a report may have changed. */
@@ -68,7 +68,7 @@ function aircraftOf(
   return { id, type, seats, battery_kwh, charge_kw, energy_kwh_per_mi, begins_at }
 }
 
-function whatIsKnown(
+function conditionsOf(
   scenario: Scenario,
   reports: Reports,
   legs: LegRecord[],
@@ -125,7 +125,7 @@ class Legs {
   }
 
   /** Applies the state of every aircraft, which may be newer than the outlook. */
-  broughtUpTo(state: DayState): LegRecord[] {
+  updatedTo(state: DayState): LegRecord[] {
     const more: LegRecord[] = []
     const [ids, places] = [indexed(this.scenario.aircraft), indexed(this.scenario.vertiports)]
     for (const one of state.aircraft) {

@@ -3,12 +3,12 @@ import type { TakenEvent } from '../api/types'
 import { everything, eventTypes, isWanted, vertiportsOf, type LogFilter } from './log'
 import { events } from './fixtures/liveDay'
 
-const said = ({ seq, event }: TakenEvent) => ({
+const textOf = ({ seq, event }: TakenEvent) => ({
   words: `${event.type} ${'reason' in event ? (event.reason ?? '') : ''}`,
   place: seq === 12 ? 'East' : undefined,
 })
 const wanted = (filter: Partial<LogFilter>) =>
-  events.filter((one) => isWanted(one, { ...everything, ...filter }, said)).map((one) => one.seq)
+  events.filter((one) => isWanted(one, { ...everything, ...filter }, textOf)).map((one) => one.seq)
 
 describe('the log', () => {
   it('contains everything without a filter', () => {
@@ -30,7 +30,7 @@ describe('the log', () => {
   })
 })
 
-it('every type of event can be searched, with its vertiports', () => {
+it('every type of event can be textOf, with its vertiports', () => {
   for (const { event } of events) {
     expect(eventTypes).toContain(event.type)
     expect(Array.isArray(vertiportsOf(event))).toBe(true)

@@ -36,29 +36,33 @@ export const everything: LogFilter = { text: '', type: '', aircraft: '', vertipo
  * The text of an event, and the vertiport of a departure or a landing, which its event may not
  * name.
  */
-export interface Said {
+export interface EventText {
   words: string
   place?: string | undefined
 }
 
 /** Whether an event matches the filter. */
-export function isWanted(taken: TakenEvent, filter: LogFilter, saidOf: (taken: TakenEvent) => Said): boolean {
+export function isWanted(
+  taken: TakenEvent,
+  filter: LogFilter,
+  textOf: (taken: TakenEvent) => EventText,
+): boolean {
   const { event, actor } = taken
   if (filter.type !== '' && event.type !== filter.type) return false
   if (filter.actor !== '' && actor !== filter.actor) return false
   if (filter.aircraft !== '' && !('aircraft' in event && event.aircraft === filter.aircraft)) return false
   if (
     filter.vertiport !== '' &&
-    saidOf(taken).place !== filter.vertiport &&
+    textOf(taken).place !== filter.vertiport &&
     !vertiportsOf(event).includes(filter.vertiport)
   )
     return false
   if (filter.text === '') return true
-  const said = `${saidOf(taken).words} ${actor} ${taken.notices.join(' ')} ${taken.seq}`.toLowerCase()
+  const searched = `${textOf(taken).words} ${actor} ${taken.notices.join(' ')} ${taken.seq}`.toLowerCase()
   return filter.text
     .toLowerCase()
     .split(/\s+/)
-    .every((word) => said.includes(word))
+    .every((word) => searched.includes(word))
 }
 
 /** The vertiports that an event names. */

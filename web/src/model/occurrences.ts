@@ -7,7 +7,7 @@ export class Occurrences {
   #seen = new Map<string, Seconds>()
 
   /** Records the conditions that hold at a time. */
-  see(keys: readonly string[], time: Seconds): void {
+  update(keys: readonly string[], time: Seconds): void {
     this.#seen = new Map(keys.map((key) => [key, this.#seen.get(key) ?? time]))
   }
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest'
 import type { AircraftState } from '../api/types'
-import { canBeDecidedAnew, isOver } from './over'
+import { canBeDecidedAgain, isOver } from './over'
 import { timeOf } from './time'
 
 const end = timeOf('10:00:00')
@@ -35,19 +35,19 @@ describe('a decision', () => {
 
   it('can be replaced until the end of operations', () => {
     const held = standing('09:45:00')
-    expect(canBeDecidedAnew({ now: '09:30:00', aircraft: [held, flying] }, held, end)).toBe(true)
-    expect(canBeDecidedAnew({ now: '10:00:01', aircraft: [held, flying] }, held, end)).toBe(false)
+    expect(canBeDecidedAgain({ now: '09:30:00', aircraft: [held, flying] }, held, end)).toBe(true)
+    expect(canBeDecidedAgain({ now: '10:00:01', aircraft: [held, flying] }, held, end)).toBe(false)
   })
 
   it('to fly can be cancelled later too, until the aircraft departs', () => {
     const sentOff = standing('11:00:00', { phase: 'sent_off' })
-    expect(canBeDecidedAnew({ now: '10:00:01', aircraft: [sentOff] }, sentOff, end)).toBe(true)
+    expect(canBeDecidedAgain({ now: '10:00:01', aircraft: [sentOff] }, sentOff, end)).toBe(true)
   })
 
   it('cannot be replaced when the day is over, nor while the aircraft waits', () => {
     const held = standing('10:05:00')
-    expect(canBeDecidedAnew({ now: '09:50:00', aircraft: [held] }, held, end)).toBe(false)
+    expect(canBeDecidedAgain({ now: '09:50:00', aircraft: [held] }, held, end)).toBe(false)
     const waits = standing('09:30:00', { needs_decision: true })
-    expect(canBeDecidedAnew({ now: '09:50:00', aircraft: [waits, flying] }, waits, end)).toBe(false)
+    expect(canBeDecidedAgain({ now: '09:50:00', aircraft: [waits, flying] }, waits, end)).toBe(false)
   })
 })

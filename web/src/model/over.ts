@@ -18,7 +18,7 @@ export function isOver({ now, aircraft }: Known, end: Seconds): boolean {
  * can be cancelled at any time. If a hold were undone after the end of operations, the aircraft
  * could no longer be decided.
  */
-export function canBeDecidedAnew(state: Known, aircraft: AircraftState, end: Seconds): boolean {
+export function canBeDecidedAgain(state: Known, aircraft: AircraftState, end: Seconds): boolean {
   if (aircraft.needs_decision || isOver(state, end)) return false
   return aircraft.phase !== 'standing' || timeOf(state.now) <= end
 }

@@ -11,14 +11,14 @@ function frames(pace: Pace, from_ms: number, to_ms: number): number[] {
 describe('the clock of a day', () => {
   it('stands still while only one time is known', () => {
     const pace = new Pace()
-    pace.hear(21_600, 0)
+    pace.observe(21_600, 0)
     expect(pace.at(0)).toBe(21_600)
     expect(pace.at(60_000)).toBe(21_600)
   })
 
   it('runs between events at the observed speed', () => {
     const pace = new Pace()
-    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
+    for (let second = 0; second <= 10; second++) pace.observe(21_600 + 60 * second, 1000 * second)
     expect(pace.speed).toBeCloseTo(60)
     pace.at(10_000)
     expect(pace.at(10_500)).toBeCloseTo(22_230, -1)
@@ -26,19 +26,19 @@ describe('the clock of a day', () => {
 
   it('stands still on a simulated day while aircraft wait for decisions', () => {
     const pace = new Pace()
-    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
+    for (let second = 0; second <= 10; second++) pace.observe(21_600 + 60 * second, 1000 * second)
     expect(pace.at(10_900)).toBeGreaterThan(22_200)
     pace.isAwaited = true
     expect(pace.at(11_000)).toBe(22_200)
     expect(pace.at(30_000)).toBe(22_200)
     pace.isAwaited = false
-    pace.hear(22_260, 30_500)
+    pace.observe(22_260, 30_500)
     expect(pace.at(30_500)).toBeGreaterThan(22_200)
   })
 
   it('runs on while aircraft wait on a real day', () => {
     const pace = new Pace()
-    for (let second = 0; second <= 10; second++) pace.hear(21_600 + second, 1000 * second)
+    for (let second = 0; second <= 10; second++) pace.observe(21_600 + second, 1000 * second)
     pace.isAwaited = true
     expect(pace.at(11_000)).toBeCloseTo(21_611, 0)
   })
@@ -49,7 +49,7 @@ describe('the clock of a day', () => {
     let before = 0
     for (const at of [0, 900, 2100, 2900, 4300, 5000, 6200, 7000, 8300, 9000, 10_100]) {
       shown.push(...frames(pace, before, at))
-      pace.hear(21_600 + Math.round(at * 0.06), at)
+      pace.observe(21_600 + Math.round(at * 0.06), at)
       before = at
     }
     const steps = shown.slice(240).map((time, index, all) => time - (all[index - 1] ?? time))
@@ -59,7 +59,7 @@ describe('the clock of a day', () => {
 
   it('waits when no news comes', () => {
     const pace = new Pace()
-    for (let second = 0; second <= 10; second++) pace.hear(21_600 + second, 1000 * second)
+    for (let second = 0; second <= 10; second++) pace.observe(21_600 + second, 1000 * second)
     pace.at(10_000)
     frames(pace, 10_000, 20_000)
     const late = pace.at(20_000)
@@ -71,7 +71,7 @@ describe('the clock of a day', () => {
 
   it('goes back to the latest known time if a simulated day falls silent', () => {
     const pace = new Pace()
-    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
+    for (let second = 0; second <= 10; second++) pace.observe(21_600 + 60 * second, 1000 * second)
     pace.at(10_000)
     frames(pace, 10_000, 13_000)
     expect(pace.at(13_000)).toBeGreaterThan(22_200)
@@ -79,14 +79,14 @@ describe('the clock of a day', () => {
     expect(pace.isStill(13_000)).toBe(false)
     expect(pace.at(15_100)).toBe(22_200)
     expect(pace.isStill(15_100)).toBe(true)
-    pace.hear(22_260, 20_000)
+    pace.observe(22_260, 20_000)
     expect(pace.isStill(20_000)).toBe(false)
     expect(pace.at(20_000)).toBeGreaterThan(22_200)
   })
 
   it('never runs far ahead of a simulated day that waits for decisions', () => {
     const pace = new Pace()
-    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 500 * second, 1000 * second)
+    for (let second = 0; second <= 10; second++) pace.observe(21_600 + 500 * second, 1000 * second)
     pace.at(10_000)
     frames(pace, 10_000, 20_000)
     expect(pace.at(20_000)).toBeLessThanOrEqual(21_600 + 500 * 10 + 120)
@@ -94,7 +94,7 @@ describe('the clock of a day', () => {
 
   it('stops when the day is over', () => {
     const pace = new Pace()
-    for (let second = 0; second <= 10; second++) pace.hear(21_600 + 60 * second, 1000 * second)
+    for (let second = 0; second <= 10; second++) pace.observe(21_600 + 60 * second, 1000 * second)
     pace.at(10_500)
     pace.end(22_200, 10_600)
     expect([pace.at(10_700), pace.at(60_000)]).toEqual([22_200, 22_200])
@@ -103,9 +103,9 @@ describe('the clock of a day', () => {
 
   it('jumps when the user returns to a suspended page', () => {
     const pace = new Pace()
-    for (let second = 0; second <= 10; second++) pace.hear(21_600 + second, 1000 * second)
+    for (let second = 0; second <= 10; second++) pace.observe(21_600 + second, 1000 * second)
     pace.at(10_000)
-    pace.hear(25_200, 3_600_000)
+    pace.observe(25_200, 3_600_000)
     expect(pace.at(3_600_000)).toBeGreaterThanOrEqual(25_200)
   })
 })

@@ -8,7 +8,7 @@
 import type { Seconds } from './record'
 
 /** The window for measuring the speed: long enough for a few events of a quiet day in real time. */
-export const LOOK_BACK_MS = 60_000
+export const WINDOW_MS = 60_000
 /** News within a shorter time is no measure of the speed, because events come in bursts. */
 const LEAST_OBSERVED_MS = 1_000
 /**
@@ -21,8 +21,8 @@ const CATCH_UP_MS = 700
  */
 const JUMP_MS = 4_000
 /** Without news the clock runs this many times as long as the longest silence so far. */
-const PATIENCE = 1.5
-const LEAST_PATIENCE_MS = 1_500
+const RUN_ON_FACTOR = 1.5
+const LEAST_RUN_ON_MS = 1_500
 /**
  * A day that is faster than this is simulated and waits for decisions, so its clock runs on for a
  * shorter time without news.
@@ -30,7 +30,7 @@ const LEAST_PATIENCE_MS = 1_500
 const SIMULATED = 2
 const MOST_AHEAD_S = 120
 /** A day stands still after this multiple of the time for which the clock runs without news. */
-const STILL = 2
+const STILL_FACTOR = 2
 const LEAST_STILL_MS = 5_000
 
 interface News {
@@ -50,11 +50,11 @@ export class Pace {
    * Adds an observation of the day's time. An observation of the same or an earlier time is
    * ignored.
    */
-  hear(time: Seconds, at_ms: number): void {
+  observe(time: Seconds, at_ms: number): void {
     const latest = this.#news.at(-1)
     if (latest !== undefined && time <= latest.time) return
     this.#news.push({ time, at_ms })
-    const old = this.#news.findIndex((news) => news.at_ms >= at_ms - LOOK_BACK_MS)
+    const old = this.#news.findIndex((news) => news.at_ms >= at_ms - WINDOW_MS)
     if (old > 0) this.#news = this.#news.slice(Math.max(0, Math.min(old, this.#news.length - 2)))
   }
 
@@ -80,7 +80,7 @@ export class Pace {
   isStill(now_ms: number): boolean {
     const latest = this.#news.at(-1)
     if (latest === undefined || this.speed <= SIMULATED) return false
-    return now_ms - latest.at_ms > Math.max(LEAST_STILL_MS, STILL * this.#patience())
+    return now_ms - latest.at_ms > Math.max(LEAST_STILL_MS, STILL_FACTOR * this.#runOn_ms())
   }
 
   /** The time to display. */
@@ -106,14 +106,14 @@ export class Pace {
   #expected(now_ms: number): Seconds {
     const latest = this.#news.at(-1)
     if (latest === undefined) return this.#shown?.time ?? 0
-    const silence_ms = Math.min(Math.max(0, now_ms - latest.at_ms), this.#patience())
+    const silence_ms = Math.min(Math.max(0, now_ms - latest.at_ms), this.#runOn_ms())
     return latest.time + (this.speed * silence_ms) / 1000
   }
 
-  #patience(): number {
+  #runOn_ms(): number {
     const silences = this.#news.slice(1).map((news, at) => news.at_ms - (this.#news[at]?.at_ms ?? news.at_ms))
-    const patience_ms = Math.max(LEAST_PATIENCE_MS, PATIENCE * Math.max(0, ...silences))
-    return this.speed > SIMULATED ? Math.min(patience_ms, (1000 * MOST_AHEAD_S) / this.speed) : patience_ms
+    const runOn_ms = Math.max(LEAST_RUN_ON_MS, RUN_ON_FACTOR * Math.max(0, ...silences))
+    return this.speed > SIMULATED ? Math.min(runOn_ms, (1000 * MOST_AHEAD_S) / this.speed) : runOn_ms
   }
 
   #isFarBehind(shown: News, target: Seconds): boolean {

@@ -52,8 +52,8 @@ const result = (...policies: PolicyResult[]): StudyResult => ({
 })
 
 it('states the lead of the best policy over the first', () => {
-  const said = headlineOf(result(policy('greedy', 100), policy('prices', 140, minus(40, 0.0004))))
-  expect(said).toEqual({
+  const headline = headlineOf(result(policy('greedy', 100), policy('prices', 140, minus(40, 0.0004))))
+  expect(headline).toEqual({
     policy: 'prices',
     profit: '$140',
     share: undefined,
@@ -68,11 +68,11 @@ it('states the lead of the best policy over the first', () => {
 })
 
 it('reverses the difference if the first is the best', () => {
-  const said = headlineOf(
+  const headline = headlineOf(
     result(policy('a', 100), policy('b', 70, minus(-30, 0.2)), policy('plan', 200, { sees: 'whole-day' })),
   )
-  expect(said?.policy).toBe('a')
-  expect(said?.lead).toMatchObject({
+  expect(headline?.policy).toBe('a')
+  expect(headline?.lead).toMatchObject({
     other: 'b',
     difference: '+\u2060$30',
     interval: '+\u2060$25 to +\u2060$35',

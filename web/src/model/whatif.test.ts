@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest'
 import { outlook, scenario as liveScenario } from './fixtures/liveDay'
-import { askedOf, compared, eventsOf, freshId, routesOf, scenarioWith, type Change } from './whatif'
+import { requestOf, compared, eventsOf, freshId, routesOf, scenarioWith, type Change } from './whatif'
 
 const changes: Change[] = [
   { id: 1, kind: 'event', event: { type: 'closed', routes: routesOf('V1', ''), until: '12:00:00' } },
@@ -10,18 +10,18 @@ const changes: Change[] = [
 
 describe('a what-if', () => {
   it('requests exactly the changes', () => {
-    expect(askedOf(changes, 'rolling')).toEqual({
+    expect(requestOf(changes, 'rolling')).toEqual({
       events: [{ type: 'closed', routes: { vertiport: 'V1' }, until: '12:00:00' }],
       aircraft: [{ id: 'A06', at: 'East' }],
       stands: { North: 9 },
       policy: 'rolling',
     })
-    expect(askedOf([], '')).toEqual({})
+    expect(requestOf([], '')).toEqual({})
     expect(eventsOf(changes)).toHaveLength(1)
   })
 
   it('is shown with its fleet and stands', () => {
-    const scenario = scenarioWith(liveScenario, askedOf(changes, ''))
+    const scenario = scenarioWith(liveScenario, requestOf(changes, ''))
     expect(scenario.aircraft.at(-1)).toEqual({ id: 'A06', at: 'East', type: 'cityairbus' })
     expect(scenario.vertiports.map((one) => one.stands)).toEqual([9, 3, 2])
   })

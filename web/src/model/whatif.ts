@@ -14,7 +14,7 @@ export type Change = { id: number } & (
 )
 
 /** The request to the service: all changes together, and the policy that would decide. */
-export function askedOf(changes: readonly Change[], policy: string): WhatIf {
+export function requestOf(changes: readonly Change[], policy: string): WhatIf {
   const events = eventsOf(changes)
   const aircraft = changes.flatMap((one) => (one.kind === 'aircraft' ? [one.aircraft] : []))
   const stands = changes.flatMap((one) =>
@@ -33,12 +33,12 @@ export function eventsOf(changes: readonly Change[]): Event[] {
 }
 
 /** The scenario with the additional aircraft and the changed stands of a what-if. */
-export function scenarioWith(scenario: Scenario, asked: WhatIf): Scenario {
+export function scenarioWith(scenario: Scenario, request: WhatIf): Scenario {
   const first = scenario.aircraft_types[0]?.id ?? ''
-  const more = (asked.aircraft ?? []).map(({ id, at, type }) => ({ id, at, type: type ?? first }))
+  const more = (request.aircraft ?? []).map(({ id, at, type }) => ({ id, at, type: type ?? first }))
   const vertiports = scenario.vertiports.map((one) => ({
     ...one,
-    stands: asked.stands?.[one.id] ?? one.stands,
+    stands: request.stands?.[one.id] ?? one.stands,
   }))
   return { ...scenario, aircraft: [...scenario.aircraft, ...more], vertiports }
 }

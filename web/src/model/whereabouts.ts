@@ -15,8 +15,8 @@ export class Whereabouts {
     if (event.type === 'undone') this.#sent.delete(event.aircraft)
     else if (event.type === 'decided') this.#sent.set(event.aircraft, event.to)
     else if (event.type === 'departed' || event.type === 'landed') {
-      const said = event.type === 'departed' ? event.to : event.at
-      const place = said ?? this.#sent.get(event.aircraft)
+      const named = event.type === 'departed' ? event.to : event.at
+      const place = named ?? this.#sent.get(event.aircraft)
       if (place === undefined) return
       this.#sent.set(event.aircraft, place)
       this.#places.set(taken, place)

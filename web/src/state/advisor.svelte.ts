@@ -75,7 +75,7 @@ export class Advisor {
   /** The day has advanced, so the displayed advice may be out of date. */
   moveOn(seq: number): void {
     const known = this.newer ?? this.proposal
-    if (known !== undefined && seq > known.seq) this.#refresher.want()
+    if (known !== undefined && seq > known.seq) this.#refresher.request()
   }
 
   showNewer(): void {

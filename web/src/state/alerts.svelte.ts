@@ -31,7 +31,7 @@ export class Alerts {
    * one.
    */
   listed(alerts: readonly Alert[], time: Seconds): ListedAlert[] {
-    this.#occurrences.see(
+    this.#occurrences.update(
       alerts.map(({ key }) => key),
       time,
     )
@@ -61,7 +61,7 @@ export class Alerts {
   #isAcknowledged({ key, matter }: Alert): boolean {
     const acknowledged = this.#acknowledged.get(key)
     if (acknowledged === undefined) return false
-    return matter.kind === 'said' || acknowledged === this.#occurrences.firstSeen(key)
+    return matter.kind === 'notice' || acknowledged === this.#occurrences.firstSeen(key)
   }
 }
 

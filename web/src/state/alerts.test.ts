@@ -33,12 +33,12 @@ it('acknowledged alerts come last, and one that comes back is new', () => {
 
 it('acknowledgements of event notices survive a reload', () => {
   const kept = storage()
-  const said: Alert = { ...over, key: 'said 4 x', matter: { kind: 'said', words: 'x' }, since: 50 }
+  const notice: Alert = { ...over, key: 'notice 4 x', matter: { kind: 'notice', text: 'x' }, since: 50 }
   const list = new Alerts('day', kept)
-  list.listed([said], 100)
-  list.acknowledge(['said 4 x'])
-  expect(new Alerts('day', kept).listed([said], 900)[0]?.isAcknowledged).toBe(true)
-  expect(new Alerts('other', kept).listed([said], 900)[0]?.isAcknowledged).toBe(false)
+  list.listed([notice], 100)
+  list.acknowledge(['notice 4 x'])
+  expect(new Alerts('day', kept).listed([notice], 900)[0]?.isAcknowledged).toBe(true)
+  expect(new Alerts('other', kept).listed([notice], 900)[0]?.isAcknowledged).toBe(false)
   kept.setItem('vertifleet-acknowledged day', '{"a": 1}')
-  expect(new Alerts('day', kept).listed([said], 900)[0]?.isAcknowledged).toBe(false)
+  expect(new Alerts('day', kept).listed([notice], 900)[0]?.isAcknowledged).toBe(false)
 })

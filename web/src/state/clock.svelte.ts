@@ -24,8 +24,8 @@ export class Clock {
   #shown_ms = 0
 
   /** Adds an observation of the day's time from `age_ms` ago. */
-  hear(time: Seconds, age_ms = 0): void {
-    this.#pace.hear(time, performance.now() - age_ms)
+  observe(time: Seconds, age_ms = 0): void {
+    this.#pace.observe(time, performance.now() - age_ms)
     if (this.#shown_ms === 0) this.#show(performance.now())
     this.time = Math.max(this.time, this.#pace.latest ?? 0)
     this.speed = this.#pace.speed
@@ -40,7 +40,7 @@ export class Clock {
   }
 
   /** Sets whether aircraft wait for decisions. */
-  await(isAwaited: boolean): void {
+  setAwaited(isAwaited: boolean): void {
     this.isAwaited = isAwaited
     this.#pace.isAwaited = isAwaited
   }

@@ -21,13 +21,13 @@ it('is never before a known event, although aircraft move without a jump', () =>
   const clock = new Clock()
   clock.run()
   for (let second = 0; second <= 10; second++) {
-    clock.hear(21_600 + 60 * second)
+    clock.observe(21_600 + 60 * second)
     frame(performance.now())
     if (second < 10) vi.advanceTimersByTime(1000)
   }
   // Earlier than expected, and between two frames.
   vi.advanceTimersByTime(100)
-  clock.hear(22_260)
+  clock.observe(22_260)
   expect(clock.time).toBe(22_260)
   frame(performance.now())
   expect(clock.time).toBeGreaterThanOrEqual(22_260)

@@ -9,8 +9,8 @@ import { alertsOf, type Alert } from '../model/alerts'
 import { aircraftAt, endOfMinute, recordAt } from '../model/awaited'
 import { canBeTakenBack, decidedSince } from '../model/decisions'
 import { liveRecord } from '../model/live'
-import { canBeDecidedAnew, isOver } from '../model/over'
-import { LOOK_BACK_MS } from '../model/pace'
+import { canBeDecidedAgain, isOver } from '../model/over'
+import { WINDOW_MS } from '../model/pace'
 import type { DayRecord, LegRecord, Seconds } from '../model/record'
 import { Reports } from '../model/reports'
 import type { Scenario } from '../model/scenario'
@@ -173,8 +173,8 @@ export class LiveDay {
 
   /** Reads the state and the outlook now, after an action at this console. */
   refresh(): void {
-    this.#stateRefresher.want()
-    this.#outlookRefresher.want()
+    this.#stateRefresher.request()
+    this.#outlookRefresher.request()
   }
 
   /**
@@ -191,22 +191,22 @@ export class LiveDay {
 
   /** Reads the state now and the outlook soon, for a user who has just decided and continues. */
   async readNow(): Promise<void> {
-    this.#outlookRefresher.want()
+    this.#outlookRefresher.request()
     await this.#readState()
   }
 
   /** Whether an aircraft's latest decision can be replaced by another. */
-  canBeDecidedAnew(aircraft: AircraftState): boolean {
+  canBeDecidedAgain(aircraft: AircraftState): boolean {
     const { state, end, info } = this
     if (state === undefined || end === undefined || info?.archived === true) return false
-    return canBeDecidedAnew(state, aircraft, end)
+    return canBeDecidedAgain(state, aircraft, end)
   }
 
   /** Whether, to the console's knowledge, an aircraft's decision from an event can be undone. */
   canBeTakenBack(aircraft: string, seq: number): boolean {
     const known = this.state?.aircraft.find((one) => one.id === aircraft)
     // An aircraft that is missing in the state was decided only now.
-    const isPossible = known === undefined || known.needs_decision || this.canBeDecidedAnew(known)
+    const isPossible = known === undefined || known.needs_decision || this.canBeDecidedAgain(known)
     return isPossible && !this.isOver && canBeTakenBack(this.events, aircraft, seq)
   }
 
@@ -249,7 +249,7 @@ export class LiveDay {
     this.#take(events)
     this.ownDecisions.forgetAfter(events.at(-1)?.seq ?? 0)
     this.#takeState(state)
-    this.#outlookRefresher.want()
+    this.#outlookRefresher.request()
     this.#stopClock ??= this.clock.run()
     this.#follow(events.at(-1)?.mark)
   }
@@ -302,15 +302,15 @@ export class LiveDay {
     const all = [...this.events, ...events]
     this.events = all.length > MOST_KEPT_EVENTS ? all.slice(-MOST_KEPT_EVENTS) : all
     this.#reported += events.length
-    this.#hear(events)
+    this.#observe(events)
   }
 
   /** Events from before the page was opened still show how fast the day passes. */
-  #hear(events: TakenEvent[]): void {
+  #observe(events: TakenEvent[]): void {
     const now = Date.now()
     for (const { event, at_ms } of events) {
       const age_ms = Math.max(0, now - at_ms)
-      if (age_ms < LOOK_BACK_MS) this.clock.hear(timeOf(event.time ?? 0), age_ms)
+      if (age_ms < WINDOW_MS) this.clock.observe(timeOf(event.time ?? 0), age_ms)
     }
   }
 
@@ -325,9 +325,9 @@ export class LiveDay {
   #takeState(state: DayState): void {
     this.state = state
     const now = timeOf(state.now)
-    this.clock.await(state.aircraft.some((one) => one.needs_decision))
+    this.clock.setAwaited(state.aircraft.some((one) => one.needs_decision))
     if (this.isOver) this.clock.end(now)
-    else this.clock.hear(now)
+    else this.clock.observe(now)
   }
 
   async #readOutlook(): Promise<void> {

@@ -11,7 +11,7 @@ export interface RefreshPace {
 }
 
 export class Refresher {
-  #isWanted = false
+  #isRequested = false
   #isAsking = false
   #isStopped = false
   #notBefore = 0
@@ -23,8 +23,8 @@ export class Refresher {
   ) {}
 
   /** Requests a refresh, because the known value is out of date. */
-  want(): void {
-    this.#isWanted = true
+  request(): void {
+    this.#isRequested = true
     if (this.#timer !== undefined || this.#isAsking || this.#isStopped) return
     const wait_ms = Math.max(this.pace.soon_ms, this.#notBefore - performance.now())
     this.#timer = setTimeout(() => void this.#refresh(), wait_ms)
@@ -37,7 +37,7 @@ export class Refresher {
 
   async #refresh(): Promise<void> {
     this.#timer = undefined
-    this.#isWanted = false
+    this.#isRequested = false
     this.#isAsking = true
     const asked = performance.now()
     try {
@@ -48,6 +48,6 @@ export class Refresher {
       this.#isAsking = false
     }
     // eslint-disable-next-line @typescript-eslint/no-unnecessary-condition -- set meanwhile.
-    if (this.#isWanted) this.want()
+    if (this.#isRequested) this.request()
   }
 }

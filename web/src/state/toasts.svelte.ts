@@ -2,7 +2,7 @@
 // closed.
 
 import { refusal } from '../api/problem'
-import { said } from '../text/problems'
+import { problemText } from '../text/problems'
 import { text } from '../text/text'
 
 export interface Toast {
@@ -33,7 +33,7 @@ class Toasts {
    */
   fail(problem: unknown): void {
     const refused = refusal(problem)
-    const { title, hint, code } = said(refused)
+    const { title, hint, code } = problemText(refused)
     const remedy = refused.status === 0 ? text.errors.noAnswerHint : hint
     this.#add({
       kind: 'error',

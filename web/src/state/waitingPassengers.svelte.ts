@@ -25,7 +25,7 @@ export class WaitingPassengers {
 
   /** The day has advanced, so the waiting passengers may have changed. */
   moveOn(seq: number): void {
-    if (this.#demand === undefined || seq > this.#demand.seq) this.#refresher.want()
+    if (this.#demand === undefined || seq > this.#demand.seq) this.#refresher.request()
   }
 
   /** The pairs with waiting passengers; undefined until the service has answered. */

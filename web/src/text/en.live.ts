@@ -17,7 +17,7 @@ export const alerts = {
     warning: (number: number) => plural(number, 'warning', 'warnings'),
     notice: (number: number) => plural(number, 'notice', 'notices'),
   },
-  said: {
+  messages: {
     overdue: {
       departure: (aircraft: string, to: string, due: string) =>
         `${aircraft} was due to leave for ${to} at ${due}, but no departure is reported`,
@@ -101,7 +101,7 @@ export const whatIf = {
   flies: (aircraft: string, to: string, time: string, passengers: number) =>
     `${aircraft} flies to ${to} at ${time} with ${plural(passengers, 'passenger', 'passengers')}`,
   showFirst: 'Show the first difference',
-  hit: {
+  impact: {
     title: (until: string) => `Affected until ${until}`,
     none: 'Nothing differs in the next two hours.',
     aircraft: (number: number) => `${plural(number, 'aircraft is', 'aircraft are')} sent elsewhere`,

@@ -123,7 +123,7 @@ export const timeline = {
   ready: (time: string) => `ready ${time}`,
   passengers: (number: number, seats: number) => `${number} of ${seats} seats`,
   decidedBy: (policy: string) => `decided by ${policy}`,
-  otherwise: (other: string, what: string, time: string, passengers: number | undefined) =>
+  differs: (other: string, what: string, time: string, passengers: number | undefined) =>
     `differs from “${other}”: there ${what} since ${time}${passengers === undefined ? '' : ` with ${plural(passengers, 'passenger', 'passengers')}`}`,
   nothingThere: (other: string) => `differs from “${other}”: nothing there yet`,
   late: (minutes: number) => `+${minutes}`,

@@ -6,40 +6,40 @@ import { clock, timeOf } from '../model/time'
 import { text } from './text'
 
 export function sentence(event: Event, place?: string): string {
-  const says = text.events
+  const texts = text.events
   switch (event.type) {
     case 'decided':
-      return says.decided(event.aircraft, event.to, event.instead_of ?? undefined)
+      return texts.decided(event.aircraft, event.to, event.instead_of ?? undefined)
     case 'undone':
-      return says.undone(event.aircraft)
+      return texts.undone(event.aircraft)
     case 'departed':
-      return says.departed(event.aircraft, event.to ?? place, event.passengers ?? undefined)
+      return texts.departed(event.aircraft, event.to ?? place, event.passengers ?? undefined)
     case 'landed':
-      return says.landed(event.aircraft, event.at ?? place)
+      return texts.landed(event.aircraft, event.at ?? place)
     case 'charging':
-      return says.charging(event.aircraft, clock(timeOf(event.ready)))
+      return texts.charging(event.aircraft, clock(timeOf(event.ready)))
     case 'ready':
-      return says.ready(event.aircraft)
+      return texts.ready(event.aircraft)
     case 'delayed':
-      return says.delayed(event.aircraft, clock(timeOf(event.until)))
+      return texts.delayed(event.aircraft, clock(timeOf(event.until)))
     case 'out_of_service':
-      return says.outOfService(event.aircraft, until(event.until))
+      return texts.outOfService(event.aircraft, until(event.until))
     case 'back_in_service':
-      return says.backInService(event.aircraft)
+      return texts.backInService(event.aircraft)
     case 'closed':
-      return says.closed(routes(event.routes), until(event.until))
+      return texts.closed(routes(event.routes), until(event.until))
     case 'reopened':
-      return says.reopened(routes(event.routes))
+      return texts.reopened(routes(event.routes))
     case 'demand':
-      return says.demand(event.pairs.length, clock(timeOf(event.period)))
+      return texts.demand(event.pairs.length, clock(timeOf(event.period)))
     case 'booked':
-      return says.booked(event.passengers, event.from, event.to, clock(timeOf(event.period)))
+      return texts.booked(event.passengers, event.from, event.to, clock(timeOf(event.period)))
     case 'cancelled':
-      return says.cancelled(event.passengers, event.from, event.to, clock(timeOf(event.period)))
+      return texts.cancelled(event.passengers, event.from, event.to, clock(timeOf(event.period)))
     case 'stands':
-      return says.stands(event.vertiport, event.stands)
+      return texts.stands(event.vertiport, event.stands)
     case 'clock':
-      return says.clock
+      return texts.clock
   }
 }
 

@@ -6,7 +6,7 @@ import { text } from './text'
 const COUNTED = /\b(vertiports|aircraft_types|fleet)\[(\d+)\](?=: )/g
 const EMPTY = /(^|: )([a-z_]+) must be [^:]*, found ""$/
 
-export function plainly(message: string): string {
+export function readableFinding(message: string): string {
   const { entries, isEmpty } = text.editor.check
   return message
     .replace(EMPTY, (_, before: string, member: string) => before + isEmpty(member))

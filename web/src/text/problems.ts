@@ -6,7 +6,7 @@ import type { ProblemError } from '../api/problem'
 import { hashOf, type OtherView } from '../model/route'
 import { text } from './text'
 
-export interface SaidProblem {
+export interface ProblemText {
   title: string
   hint?: string
   /** The code to look up, if there is one. */
@@ -25,7 +25,7 @@ const lists: Readonly<Partial<Record<Missing, OtherView>>> = {
   network: 'networks',
 }
 
-export function said(problem: ProblemError): SaidProblem {
+export function problemText(problem: ProblemError): ProblemText {
   const { status, code, detail, hint } = problem
   if (status === 0) return { title: text.errors.noAnswer }
   const missing = code === NOT_FOUND ? missingOf(detail) : undefined
@@ -40,7 +40,7 @@ export function said(problem: ProblemError): SaidProblem {
 }
 
 /** The text for a missing object that an address or a choice names. */
-export function notFound(what: Missing, id: string): SaidProblem {
+export function notFound(what: Missing, id: string): ProblemText {
   const list = lists[what]
   const { title, hint } = text.errors.notFound[what](id)
   if (list === undefined) return { title, hint }

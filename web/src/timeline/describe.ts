@@ -3,20 +3,20 @@
 import { at } from '../model/arrays'
 import { minutesOverdue } from '../model/awaited'
 import type { Bar } from '../model/bars'
-import type { Otherwise } from '../model/differ'
+import type { DifferingLegs } from '../model/differ'
 import { dollarsAndCents } from '../model/money'
 import { isHold, type DayRecord, type LegRecord } from '../model/record'
 import { clock } from '../model/time'
 import { text } from '../text/text'
 
 /** Another play of the same day, for comparison with a timeline. */
-export interface Beside {
+export interface OtherPlay {
   title: string
   /** The legs of this play that the other one lacks. */
-  otherwise: Otherwise
+  differing: DifferingLegs
 }
 
-export function describeBar(record: DayRecord, bar: Bar, beside?: Beside): string[] {
+export function describeBar(record: DayRecord, bar: Bar, otherPlay?: OtherPlay): string[] {
   const { id } = at(record.aircraft, bar.aircraft)
   const isEndless = bar.ends === Infinity
   const begins = clock(Math.max(bar.begins, record.start))
@@ -25,17 +25,17 @@ export function describeBar(record: DayRecord, bar: Bar, beside?: Beside): strin
   const own = `${text.timeline.kinds[bar.kind]} ${times}`
   return leg === undefined
     ? [id, own]
-    : [`${id} · ${nameOf(record, leg)}`, own, ...details(record, leg, beside)]
+    : [`${id} · ${nameOf(record, leg)}`, own, ...details(record, leg, otherPlay)]
 }
 
 /** A leg in one sentence, for screen readers. */
-export function describeLeg(record: DayRecord, leg: LegRecord, beside?: Beside): string {
+export function describeLeg(record: DayRecord, leg: LegRecord, otherPlay?: OtherPlay): string {
   const { id } = at(record.aircraft, leg.aircraft)
   const times = text.timeline.times(
     clock(isHold(leg) ? leg.decided : leg.departs),
     clock(isHold(leg) ? leg.ready : leg.arrives),
   )
-  return [`${id} ${nameOf(record, leg)}`, times, ...details(record, leg, beside)].join(', ')
+  return [`${id} ${nameOf(record, leg)}`, times, ...details(record, leg, otherPlay)].join(', ')
 }
 
 export function nameOf({ vertiports }: DayRecord, leg: LegRecord): string {
@@ -44,25 +44,25 @@ export function nameOf({ vertiports }: DayRecord, leg: LegRecord): string {
 }
 
 /** Whether a leg is overdue or expected, and its counterpart in another play. */
-export function notesOf(record: DayRecord, leg: LegRecord, beside?: Beside): string[] {
-  const position = beside === undefined ? -1 : record.legs.indexOf(leg)
-  const isOtherwise = beside?.otherwise.has(position) ?? false
+export function notesOf(record: DayRecord, leg: LegRecord, otherPlay?: OtherPlay): string[] {
+  const position = otherPlay === undefined ? -1 : record.legs.indexOf(leg)
+  const isDiffering = otherPlay?.differing.has(position) ?? false
   const overdue_min = minutesOverdue(leg)
   return [
     ...(overdue_min > 0 ? [text.map.overdueBy(overdue_min)] : []),
     ...(leg.is_expected ? [text.timeline.expected] : []),
-    ...(isOtherwise && beside !== undefined ? [insteadOf(record, beside, position)] : []),
+    ...(isDiffering && otherPlay !== undefined ? [insteadOf(record, otherPlay, position)] : []),
   ]
 }
 
-function insteadOf(record: DayRecord, { title, otherwise }: Beside, position: number): string {
-  const twin = otherwise.get(position)?.twin
+function insteadOf(record: DayRecord, { title, differing }: OtherPlay, position: number): string {
+  const twin = differing.get(position)?.twin
   if (twin === undefined) return text.timeline.nothingThere(title)
   const load = isHold(twin) ? undefined : twin.passengers
-  return text.timeline.otherwise(title, nameOf(record, twin), clock(twin.decided), load)
+  return text.timeline.differs(title, nameOf(record, twin), clock(twin.decided), load)
 }
 
-function details(record: DayRecord, leg: LegRecord, beside: Beside | undefined): string[] {
+function details(record: DayRecord, leg: LegRecord, otherPlay: OtherPlay | undefined): string[] {
   const lines: string[] = []
   if (!isHold(leg)) {
     const load = text.timeline.passengers(leg.passengers, at(record.aircraft, leg.aircraft).seats)
@@ -73,5 +73,5 @@ function details(record: DayRecord, leg: LegRecord, beside: Beside | undefined):
     lines.push(text.timeline.planned(clock(departs), clock(arrives), clock(ready)))
   }
   if (!leg.is_expected && leg.policy !== undefined) lines.push(text.timeline.decidedBy(leg.policy))
-  return [...lines, ...notesOf(record, leg, beside)]
+  return [...lines, ...notesOf(record, leg, otherPlay)]
 }

@@ -4,7 +4,7 @@
 import { at } from '../model/arrays'
 import { minutesOverdue } from '../model/awaited'
 import type { Bar, BarKind } from '../model/bars'
-import type { Otherwise } from '../model/differ'
+import type { DifferingLegs } from '../model/differ'
 import type { DayRecord } from '../model/record'
 import { aircraftMeant, vertiportMeant, type Target } from '../model/target'
 import { css, type ColourName, type Rgb } from '../parts/colours'
@@ -27,7 +27,7 @@ export interface GanttPicture {
   hovered: Target | undefined
   selected: Target | undefined
   /** Legs that another play lacks; they are marked. */
-  otherwise: Otherwise | undefined
+  differing: DifferingLegs | undefined
 }
 
 /** Minimum distance between two labels on the axis, pixels. */
@@ -153,7 +153,7 @@ class RowPainter {
     const { context, picture } = this
     let wasElsewhere = false
     for (const run of runs) {
-      const differing = picture.otherwise?.get(run[0].leg)
+      const differing = picture.differing?.get(run[0].leg)
       const isElsewhere = differing?.isElsewhere === true
       if (differing !== undefined) this.#paintMark(run, top, isElsewhere, isElsewhere && !wasElsewhere)
       wasElsewhere = isElsewhere

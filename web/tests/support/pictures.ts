@@ -64,7 +64,7 @@ interface WorkerFixtures {
 interface Fixtures {
   /** Shows one picture of a day: `picture=map&day=new-york&at=08:20:00`. */
   show: (query: string) => Promise<void>
-  wrongs: string[]
+  pageErrors: string[]
 }
 
 export const test = base.extend<Fixtures, WorkerFixtures>({
@@ -94,12 +94,12 @@ export const test = base.extend<Fixtures, WorkerFixtures>({
     { scope: 'worker' },
   ],
 
-  wrongs: [
+  pageErrors: [
     async ({ context }, use) => {
-      const wrongs: string[] = []
-      context.on('weberror', (error) => wrongs.push(error.error().message))
-      await use(wrongs)
-      base.expect(wrongs).toEqual([])
+      const pageErrors: string[] = []
+      context.on('weberror', (error) => pageErrors.push(error.error().message))
+      await use(pageErrors)
+      base.expect(pageErrors).toEqual([])
     },
     { auto: true },
   ],

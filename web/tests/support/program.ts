@@ -46,16 +46,16 @@ export class Program {
     const child = spawn(program, ['serve', '--listen', address, '--data', this.#folder, ...this.more])
     this.#process = child
     this.#port = await new Promise<number>((listens, fails) => {
-      let said = ''
+      let output = ''
       const read = (bytes: Buffer) => {
-        said += bytes.toString()
-        const found = /http:\/\/127\.0\.0\.1:(\d+)/.exec(said)
+        output += bytes.toString()
+        const found = /http:\/\/127\.0\.0\.1:(\d+)/.exec(output)
         if (found?.[1] !== undefined) listens(Number(found[1]))
       }
       child.stdout.on('data', read)
       child.stderr.on('data', read)
       child.on('error', fails)
-      child.on('exit', () => fails(new Error(`the program ended: ${said}`)))
+      child.on('exit', () => fails(new Error(`the program ended: ${output}`)))
     })
   }
 
@@ -76,9 +76,9 @@ export class Program {
     writeFileSync(file, network)
     const child = spawn(program, ['operate', this.url, '--network', file, ...args])
     this.#operators.push(child)
-    let said = ''
-    child.stderr.on('data', (bytes: Buffer) => (said += bytes.toString()))
-    return new Promise((ends) => child.once('close', (code) => ends(code === 0 ? '' : `${code}: ${said}`)))
+    let output = ''
+    child.stderr.on('data', (bytes: Buffer) => (output += bytes.toString()))
+    return new Promise((ends) => child.once('close', (code) => ends(code === 0 ? '' : `${code}: ${output}`)))
   }
 
   /** Creates a token, after which every request needs one. */
@@ -94,9 +94,9 @@ export class Program {
       '--data',
       this.#folder,
     ]
-    const said = execFileSync(program, args, { encoding: 'utf8' })
-    const token = /vf_\S+/.exec(said)?.[0]
-    if (token === undefined) throw new Error(`no token in: ${said}`)
+    const output = execFileSync(program, args, { encoding: 'utf8' })
+    const token = /vf_\S+/.exec(output)?.[0]
+    if (token === undefined) throw new Error(`no token in: ${output}`)
     return token
   }
 

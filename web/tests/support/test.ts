@@ -10,7 +10,7 @@ interface Fixtures {
   program: Program
   fleet: Fleet
   /** Errors in the page: of scripts, and violations of the content security policy. */
-  wrongs: string[]
+  pageErrors: string[]
 }
 
 export const test = base.extend<Fixtures>({
@@ -25,15 +25,15 @@ export const test = base.extend<Fixtures>({
     await use(await Fleet.onSmallDay(program.url))
   },
 
-  wrongs: [
+  pageErrors: [
     async ({ context }, use) => {
-      const wrongs: string[] = []
-      context.on('weberror', (error) => wrongs.push(error.error().message))
+      const pageErrors: string[] = []
+      context.on('weberror', (error) => pageErrors.push(error.error().message))
       context.on('console', (message) => {
-        if (/content security policy/i.test(message.text())) wrongs.push(message.text())
+        if (/content security policy/i.test(message.text())) pageErrors.push(message.text())
       })
-      await use(wrongs)
-      expect(wrongs).toEqual([])
+      await use(pageErrors)
+      expect(pageErrors).toEqual([])
     },
     { auto: true },
   ],

@@ -45,14 +45,14 @@ export const OPACITY_OF_STATE: Record<StandState, number> = {
 const AIRCRAFT_PX = { least: 6, most: 10 }
 const SMALLEST = 0.68
 /** With more aircraft in the air than this, they are drawn smaller. */
-const FEW = 40
+const MOST_FULL_SIZE = 40
 
 /**
  * The size of aircraft and the opacity of their routes: less on a small picture, and less with many
  * flights.
  */
 export function looksOf({ scene, size }: Picture): { aircraft_px: number; wayOpacity: number } {
-  const crowd = Math.sqrt(Math.min(1, FEW / Math.max(1, scene.counts.inTheAir)))
+  const crowd = Math.sqrt(Math.min(1, MOST_FULL_SIZE / Math.max(1, scene.counts.inTheAir)))
   const wanted = (3 + Math.min(size.width, size.height) / 110) * (0.6 + 0.4 * crowd)
   return {
     aircraft_px: Math.max(AIRCRAFT_PX.least, Math.min(AIRCRAFT_PX.most, wanted)),

@@ -1,7 +1,7 @@
 // The service's findings about a network, with their positions in the file. A message of the
 // service names the member. Its path leads to the field of a form and to a line of the text.
 
-import { plainly } from '../../text/findings'
+import { readableFinding } from '../../text/findings'
 import { draftOf } from './draft'
 import { beginsWith, type Path, type Step, type TomlFile } from './toml'
 
@@ -37,19 +37,19 @@ export function findingOf({ code, detail, hint }: Refusal, file: TomlFile): Find
   const message = detail.startsWith(ORIGIN) ? detail.slice(ORIGIN.length) : detail
   const line = AT_LINE.exec(message)
   if (line !== null) {
-    const [, number, , dotted, said = message] = line
+    const [, number, , dotted, rule = message] = line
     const path = dotted === undefined ? [] : stepsOf(dotted.replaceAll('.', ': '))
     return {
       kind: 'error',
       code,
-      message: dotted ? `${dotted}: ${said}` : said,
+      message: dotted ? `${dotted}: ${rule}` : rule,
       hint,
       path,
       line: Number(number),
     }
   }
   const path = message.includes('time zone') ? ['time_zone'] : pathOf(message, file)
-  return { kind: 'error', code, message: plainly(message), hint, path, line: lineOf(file, path) }
+  return { kind: 'error', code, message: readableFinding(message), hint, path, line: lineOf(file, path) }
 }
 
 export function findingOfWarning(message: string, file: TomlFile): Finding {

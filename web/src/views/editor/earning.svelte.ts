@@ -13,7 +13,7 @@ const SEED = 1
 const NOT_FOUND = 404
 
 /** A request: days of the same seeds, by one policy. */
-interface Asked {
+interface StudyRequest {
   policy: string
   days: number
 }
@@ -25,17 +25,17 @@ class Played {
 
   private constructor(
     readonly network: NetworkText,
-    readonly asked: Asked,
+    readonly request: StudyRequest,
     study: StudyInfo,
   ) {
     this.study = study
     this.id = study.id
   }
 
-  static async begin(network: NetworkText, asked: Asked): Promise<Played> {
-    const { policy, days } = asked
+  static async begin(network: NetworkText, request: StudyRequest): Promise<Played> {
+    const { policy, days } = request
     const body = { toml: network.toml, policies: [policy], days, seed: SEED }
-    return new Played(network, asked, await session.service.makeStudy(body))
+    return new Played(network, request, await session.service.makeStudy(body))
   }
 
   get isPlaying(): boolean {
@@ -47,8 +47,8 @@ class Played {
   }
 
   /** Whether the result is for these days, so that it can be compared day by day. */
-  isResultOf({ policy, days }: Asked): boolean {
-    return this.result !== undefined && this.asked.policy === policy && this.asked.days === days
+  isResultOf({ policy, days }: StudyRequest): boolean {
+    return this.result !== undefined && this.request.policy === policy && this.request.days === days
   }
 }
 
@@ -74,16 +74,16 @@ class Earning {
   }
 
   /** Plays the edited network, then the one it was made from unless its result is already known. */
-  async play(network: NetworkText, origin: NetworkText | undefined, asked: Asked): Promise<void> {
+  async play(network: NetworkText, origin: NetworkText | undefined, request: StudyRequest): Promise<void> {
     const former = [this.now, this.before].filter((one) => one !== undefined)
-    const known = former.filter((one) => one.isResultOf(asked) && one.network.toml !== network.toml)
+    const known = former.filter((one) => one.isResultOf(request) && one.network.toml !== network.toml)
     this.isAsking = true
     this.problem = undefined
     try {
-      this.now = await Played.begin(network, asked)
+      this.now = await Played.begin(network, request)
       this.before = known.find((one) => origin === undefined || one.network.toml === origin.toml)
       if (this.before === undefined && origin !== undefined && origin.toml !== network.toml)
-        this.before = await Played.begin(origin, asked)
+        this.before = await Played.begin(origin, request)
     } catch (cause) {
       this.problem = refusal(cause)
     } finally {

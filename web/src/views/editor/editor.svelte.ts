@@ -77,7 +77,7 @@ class Editor {
   /** The selected vertiport, on the map and in its form. */
   vertiport = $state<number>()
   info = $state.raw<NetworkInfo>()
-  #said = $state.raw<Finding[]>([])
+  #checked = $state.raw<Finding[]>([])
   isChecking = $state(false)
   /** Why the request to the service failed. */
   problem = $state.raw<ProblemError>()
@@ -132,7 +132,7 @@ class Editor {
 
   readonly findings: readonly Finding[] = $derived.by(() => {
     const { error } = this.read
-    return error === undefined ? this.#said : [ofSyntax(error)]
+    return error === undefined ? this.#checked : [ofSyntax(error)]
   })
 
   /** Whether forms can change the text. */
@@ -169,7 +169,7 @@ class Editor {
     this.opened += 1
     this.vertiport = undefined
     this.info = undefined
-    this.#said = []
+    this.#checked = []
     this.shown = undefined
     this.#changed(0)
   }
@@ -252,7 +252,7 @@ class Editor {
       const info = await session.service.validateNetwork(file.text)
       if (asked !== this.#asked) return
       this.info = info
-      this.#said = info.warnings.map((warning) => findingOfWarning(warning, file))
+      this.#checked = info.warnings.map((warning) => findingOfWarning(warning, file))
       this.problem = undefined
     } catch (cause) {
       if (asked === this.#asked) this.#refused(cause, file)
@@ -299,7 +299,7 @@ class Editor {
     // Without permission or an answer, the text itself is not marked as wrong.
     const isAboutTheText = cause.status === 400 || cause.status === 422
     this.problem = isAboutTheText ? undefined : cause
-    if (isAboutTheText) this.#said = [findingOf(cause, file)]
+    if (isAboutTheText) this.#checked = [findingOf(cause, file)]
   }
 
   #changed(pause_ms = PAUSE_MS): void {

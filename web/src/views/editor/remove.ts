@@ -7,9 +7,9 @@ import { editor } from './editor.svelte'
 
 /** Removes a vertiport with all references to it, and returns the message. */
 export function removeVertiportAt(index: number): string {
-  const said = text.editor.map.removed(editor.draft.vertiports[index]?.id ?? '')
+  const message = text.editor.map.removed(editor.draft.vertiports[index]?.id ?? '')
   editor.change((file) => removeVertiport(file, index))
   editor.vertiport = undefined
-  toasts.done(said, { title: text.editor.undo, run: () => editor.undo() })
-  return said
+  toasts.done(message, { title: text.editor.undo, run: () => editor.undo() })
+  return message
 }

@@ -5,9 +5,9 @@ import { ProblemError } from '../../api/problem'
 import type { StudyInfo } from '../../api/types'
 import { session } from '../../state/session.svelte'
 
-const LOOK_MS = 700
+const POLL_MS = 700
 /** The interval while the service does not answer. */
-const PATIENCE_MS = 3_000
+const RETRY_MS = 3_000
 
 export function hasEnded({ state }: StudyInfo): boolean {
   return state === 'finished' || state === 'failed'
@@ -18,28 +18,28 @@ export function hasEnded({ state }: StudyInfo): boolean {
  */
 export function follow(
   study: string,
-  tell: (info: StudyInfo) => void,
+  onInfo: (info: StudyInfo) => void,
   fail: (problem: ProblemError) => void,
 ): () => void {
   let isStopped = false
   let timer: ReturnType<typeof setTimeout> | undefined
-  const look = async () => {
-    let pause_ms = LOOK_MS
+  const poll = async () => {
+    let pause_ms = POLL_MS
     try {
       const info = await session.service.study(study)
       if (isStopped) return
-      tell(info)
+      onInfo(info)
       if (hasEnded(info)) return
     } catch (cause) {
       if (!(cause instanceof ProblemError)) throw cause
       if (isStopped) return
       fail(cause)
       if (cause.status === 404) return
-      pause_ms = PATIENCE_MS
+      pause_ms = RETRY_MS
     }
-    timer = setTimeout(() => void look(), pause_ms)
+    timer = setTimeout(() => void poll(), pause_ms)
   }
-  void look()
+  void poll()
   return () => {
     isStopped = true
     clearTimeout(timer)

@@ -3,46 +3,46 @@
 // those differences show nothing about the change.
 
 import { grouped } from './arrays'
-import type { Otherwise } from './differ'
+import type { DifferingLegs } from './differ'
 import { isHold, type DayRecord, type LegRecord, type Seconds } from './record'
 
 /** A dispatcher can act on expectations this far ahead. */
-export const AHEAD_S = 2 * 3600
+export const HORIZON_S = 2 * 3600
 
 /** An aircraft with another destination, and the first leg with that difference. */
-export interface HitAircraft {
+export interface AffectedAircraft {
   id: string
   asItIs: LegRecord | undefined
   whatIf: LegRecord | undefined
 }
 
 /** The difference in passengers carried from one vertiport to another. */
-export interface HitPair {
+export interface PairChange {
   from: string
   to: string
   more: number
 }
 
 /** The difference in landings at a vertiport. */
-export interface HitPlace {
+export interface LandingChange {
   id: string
   more: number
 }
 
-export interface Hit {
+export interface Impact {
   until: Seconds
-  aircraft: HitAircraft[]
+  aircraft: AffectedAircraft[]
   /** Passengers who take off within these hours. */
   passengers: { asItIs: number; whatIf: number }
   /** The pairs with the largest differences first. */
-  pairs: HitPair[]
-  places: HitPlace[]
+  pairs: PairChange[]
+  places: LandingChange[]
 }
 
 /** The differences within two hours of `now`. */
-export function hitOf(asItIs: DayRecord, whatIf: DayRecord, now: Seconds): Hit {
-  const until = now + AHEAD_S
-  const [ones, others] = [soonOf(asItIs, now, until), soonOf(whatIf, now, until)]
+export function impactOf(asItIs: DayRecord, whatIf: DayRecord, now: Seconds): Impact {
+  const until = now + HORIZON_S
+  const [ones, others] = [upcomingLegs(asItIs, now, until), upcomingLegs(whatIf, now, until)]
   const byPair = (record: DayRecord, legs: readonly LegRecord[]) =>
     summed(
       legs,
@@ -55,11 +55,11 @@ export function hitOf(asItIs: DayRecord, whatIf: DayRecord, now: Seconds): Hit {
       (leg) => idOf(record, leg.to),
       (leg) => Number(!isHold(leg)),
     )
-  const pairs = moreOf(byPair(asItIs, ones), byPair(whatIf, others)).map(([pair, more]) => {
+  const pairs = increases(byPair(asItIs, ones), byPair(whatIf, others)).map(([pair, more]) => {
     const [from = '', to = ''] = pair.split(' ')
     return { from, to, more }
   })
-  const places = moreOf(byPlace(asItIs, ones), byPlace(whatIf, others))
+  const places = increases(byPlace(asItIs, ones), byPlace(whatIf, others))
   return {
     until,
     aircraft: aircraftOf(asItIs, whatIf, now, until),
@@ -70,12 +70,12 @@ export function hitOf(asItIs: DayRecord, whatIf: DayRecord, now: Seconds): Hit {
 }
 
 /** Differences of legs that are decided before a time; later ones are left out. */
-export function before(otherwise: Otherwise, record: DayRecord, until: Seconds): Otherwise {
-  return new Map([...otherwise].filter(([index]) => (record.legs[index]?.decided ?? Infinity) < until))
+export function decidedBefore(differing: DifferingLegs, record: DayRecord, until: Seconds): DifferingLegs {
+  return new Map([...differing].filter(([index]) => (record.legs[index]?.decided ?? Infinity) < until))
 }
 
 /** The legs that will be decided within the horizon. */
-function soonOf({ legs }: DayRecord, now: Seconds, until: Seconds): LegRecord[] {
+function upcomingLegs({ legs }: DayRecord, now: Seconds, until: Seconds): LegRecord[] {
   return legs.filter((leg) => leg.is_expected && leg.decided >= now && leg.decided < until)
 }
 
@@ -83,10 +83,10 @@ function soonOf({ legs }: DayRecord, now: Seconds, until: Seconds): LegRecord[] 
  * Aircraft that get another destination before a time. Their complete continuations are compared
  * leg by leg. So a leg just before the time in one and just after it in the other is no difference.
  */
-function aircraftOf(asItIs: DayRecord, whatIf: DayRecord, now: Seconds, until: Seconds): HitAircraft[] {
+function aircraftOf(asItIs: DayRecord, whatIf: DayRecord, now: Seconds, until: Seconds): AffectedAircraft[] {
   const [mine, theirs] = [byAircraft(asItIs, now), byAircraft(whatIf, now)]
   const ids = [...new Set([...mine.keys(), ...theirs.keys()])]
-  const hit = ids.flatMap((id): HitAircraft[] => {
+  const impact = ids.flatMap((id): AffectedAircraft[] => {
     const [mineOf, theirsOf] = [mine.get(id) ?? [], theirs.get(id) ?? []]
     const longer = mineOf.length > theirsOf.length ? mineOf : theirsOf
     const leadsElsewhere = (at: number) => {
@@ -97,11 +97,11 @@ function aircraftOf(asItIs: DayRecord, whatIf: DayRecord, now: Seconds, until: S
     const first = longer.findIndex((_, at) => leadsElsewhere(at))
     return first < 0 ? [] : [{ id, asItIs: mineOf[first], whatIf: theirsOf[first] }]
   })
-  const soon = hit.filter((one) => timeOf(one) < until)
+  const soon = impact.filter((one) => timeOf(one) < until)
   return soon.sort((one, other) => timeOf(one) - timeOf(other))
 }
 
-function timeOf({ asItIs, whatIf }: HitAircraft): Seconds {
+function timeOf({ asItIs, whatIf }: AffectedAircraft): Seconds {
   return Math.min(asItIs?.decided ?? Infinity, whatIf?.decided ?? Infinity)
 }
 
@@ -133,7 +133,7 @@ function summed(
  * The increase of each sum from the first map to the second, without zeros; the largest changes
  * first.
  */
-function moreOf(ones: Map<string, number>, others: Map<string, number>): [string, number][] {
+function increases(ones: Map<string, number>, others: Map<string, number>): [string, number][] {
   const names = [...new Set([...ones.keys(), ...others.keys()])]
   const more = names.map((name): [string, number] => [name, (others.get(name) ?? 0) - (ones.get(name) ?? 0)])
   const differing = more.filter(([, by]) => by !== 0)

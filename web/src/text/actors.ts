@@ -5,7 +5,7 @@
 
 import { text } from './text'
 
-export interface Doing {
+export interface Action {
   /** The name of the token; empty without tokens. */
   actor: string
   /**
@@ -18,18 +18,18 @@ export interface Doing {
 }
 
 /** `anna · prices`, `you · prices`, `as prices advised`; empty if nothing is known. */
-export function whoDid({ actor, policy, isOwn = false }: Doing): string {
+export function actorText({ actor, policy, isOwn = false }: Action): string {
   const person = actor !== '' ? actor : isOwn ? text.decided.you : ''
   if (person === '') return policy == null ? '' : text.decided.asAdvised(policy)
   return policy == null ? person : `${person} · ${policy}`
 }
 
 /** The same for a decision: if no policy advised it, a person chose. */
-export function whoDecided(doing: Doing): string {
-  return whoDid(doing) || text.decided.person
+export function deciderText(action: Action): string {
+  return actorText(action) || text.decided.person
 }
 
 /** Why no name is given, if there is none. */
-export function whyNoName({ actor, isOwn = false }: Doing): string | undefined {
+export function anonymityHint({ actor, isOwn = false }: Action): string | undefined {
   return actor === '' && !isOwn ? text.decided.noNameHint : undefined
 }
