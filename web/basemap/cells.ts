@@ -41,7 +41,7 @@ export function sectors(): Map<string, string> {
   return new Map([...bySector].map(([sector, content]) => [sector, JSON.stringify(content)]))
 }
 
-export function sectorName(west: number, south: number): string {
+function sectorName(west: number, south: number): string {
   return [west, south].map((degrees) => Math.floor(degrees / SECTOR) * SECTOR).join('_')
 }
 

@@ -4,23 +4,8 @@ import type { Page } from '@playwright/test'
 import type { Fleet } from './support/fleet'
 import { morning, standStill } from './support/morning'
 import type { Program } from './support/program'
-import { expectToLook, screens } from './support/screens'
+import { expectToLook, screens, useOneFont } from './support/screens'
 import { expect, open, panel, test } from './support/test'
-
-/**
- * Screenshots use a font that `scripts/console` installs, regardless of the machine's preferences.
- */
-async function useOneFont(page: Page): Promise<void> {
-  await page.addInitScript(() => {
-    document.addEventListener('DOMContentLoaded', () => {
-      const sheet = new CSSStyleSheet()
-      sheet.replaceSync(
-        ":root { --sans: 'Liberation Sans' !important; --mono: 'Liberation Mono' !important }",
-      )
-      document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet]
-    })
-  })
-}
 
 /** Content that differs in each run: durations, times, and generated ids. */
 function passing(page: Page) {
@@ -65,7 +50,7 @@ test('the views of a day look like their screenshots', async ({ page, program })
   test.setTimeout(300_000)
   const fleet = await morning(program)
   await standStill(page)
-  await useOneFont(page)
+  await page.addInitScript(useOneFont)
   for (const [view, show] of Object.entries(views)) {
     for (const screen of ['desk', 'phone'] as const) {
       await page.setViewportSize(screens[screen])

@@ -3,6 +3,12 @@
 
 import type { components } from './schema'
 
+export const UNAUTHORIZED = 401
+export const FORBIDDEN = 403
+export const NOT_FOUND = 404
+/** The day has advanced since the event of the request. */
+export const PRECONDITION_FAILED = 412
+
 /** A request that the service refused, or that did not reach it. */
 export class ProblemError extends Error {
   override readonly name = 'ProblemError'

@@ -3,9 +3,8 @@
 // flight.
 
 import { at } from '../model/arrays'
-import type { Geography } from '../model/geography'
+import { RADIANS, type Geography } from '../model/geography'
 
-const RADIANS = Math.PI / 180
 /** Miles around the equator of the Mercator world, before the scale of a latitude. */
 const AROUND_MI = 2 * Math.PI * 3958.7613
 /** The Mercator map ends here; the poles are infinitely far away. */

@@ -9,7 +9,7 @@ import { COUNTED, StandState } from '../model/counts'
  * count.
  */
 const MOST_PIECES = 24
-const TURN = 2 * Math.PI
+export const TURN = 2 * Math.PI
 /** Pixels between two pieces. */
 const GAP = 2
 

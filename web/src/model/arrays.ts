@@ -33,3 +33,8 @@ export function grouped<T, K>(list: readonly T[], keyOf: (one: T) => K): Map<K, 
   }
   return groups
 }
+
+/** The sum of values. */
+export function total(values: readonly number[]): number {
+  return values.reduce((sum, one) => sum + one, 0)
+}

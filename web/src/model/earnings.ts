@@ -1,7 +1,7 @@
 // The profit of a day over time, and the demand and passengers of each period: the curves above a
 // scrubber.
 
-import { at, countUpTo } from './arrays'
+import { at, countUpTo, total } from './arrays'
 import { Boarding } from './boarding'
 import type { DayRecord, Seconds } from './record'
 import { isHold } from './record'
@@ -89,7 +89,7 @@ export interface PeriodSums {
 export function demandByPeriod(record: DayRecord): PeriodSums[] {
   const sums = record.periods.map((begins, index): PeriodSums => {
     const table = record.demand?.passengers[index] ?? []
-    const wanted = table.flat().reduce((sum, passengers) => sum + passengers, 0)
+    const wanted = total(table.flat())
     return { begins, ends: record.periods[index + 1] ?? record.end, wanted, carried: 0 }
   })
   const boarding = new Boarding(record)

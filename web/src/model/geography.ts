@@ -9,7 +9,8 @@ import type { Place, VertiportRecord } from './record'
 
 /** The mean radius of the earth, as in docs/src/concepts/model.md. */
 const EARTH_MI = 3958.7613
-const RADIANS = Math.PI / 180
+/** Radians per degree. */
+export const RADIANS = Math.PI / 180
 
 type PlaceAndHeading = [east: number, north: number, heading: number]
 

@@ -32,6 +32,8 @@ const MOST_AHEAD_S = 120
 /** A day stands still after this multiple of the time for which the clock runs without news. */
 const STILL_FACTOR = 2
 const LEAST_STILL_MS = 5_000
+/** With reduced motion, pictures are updated at this interval instead of every frame. */
+export const CALM_MS = 1_000
 
 interface News {
   time: Seconds

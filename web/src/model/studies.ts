@@ -2,6 +2,7 @@
 // the difference of two studies, which the service does not compare.
 
 import type { PolicyResult, StudyResult } from '../api/types'
+import { total } from './arrays'
 import { dollarDifference, dollars, percent } from './money'
 
 /** The best policy and its lead over another one. */
@@ -105,7 +106,7 @@ export function pairedDifference(one: PolicyResult, other: PolicyResult): Interv
   const differences = one.daily_profit_usd.map((profit, day) => profit - (other.daily_profit_usd[day] ?? NaN))
   if (one.daily_profit_usd.length !== other.daily_profit_usd.length || differences.length === 0)
     return undefined
-  const mean = differences.reduce((sum, each) => sum + each, 0) / differences.length
+  const mean = total(differences) / differences.length
   const squares = differences.reduce((sum, each) => sum + (each - mean) ** 2, 0)
   const deviation = Math.sqrt(squares / (differences.length - 1))
   const factor = studentsFactor(one) ?? studentsFactor(other)

@@ -1,7 +1,7 @@
 // Reads the style sheet's colours, for drawing on a canvas. A custom property is text until a
 // colour property uses it, so each is read through an element that does.
 
-export const colourNames = [
+const colourNames = [
   'ground',
   'surface',
   'raised',

@@ -1,12 +1,11 @@
 // Playback of a day: a clock that a user can start, stop, speed up and move.
 
 import { countUpTo } from '../model/arrays'
+import { CALM_MS } from '../model/pace'
 import type { Seconds } from '../model/record'
 
 /** Seconds of the day per second. */
 export const SPEEDS = { least: 1, most: 3600, first: 300 }
-/** With reduced motion, pictures are updated at this interval instead of every frame. */
-const CALM_MS = 1_000
 
 export interface Span {
   from: Seconds

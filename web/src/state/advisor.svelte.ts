@@ -2,14 +2,12 @@
 // the user works with it. If the day advances meanwhile, the newer advice waits until the user asks
 // for it.
 
-import { refusal, ProblemError } from '../api/problem'
+import { PRECONDITION_FAILED, refusal, ProblemError } from '../api/problem'
 import type { Service } from '../api/client'
 import type { Proposal, TakenDecision } from '../api/types'
 import { isSameAdvice } from '../model/decisions'
 import { Refresher } from './refresher'
 
-/** HTTP status: the day has advanced since the event of the request. */
-const GONE_ON = 412
 /** How often an acceptance is retried if the day advances while the advice stays the same. */
 const TRIES = 6
 const PACE = { soon_ms: 80, least_ms: 700, share: 3 }
@@ -103,7 +101,7 @@ export class Advisor {
         try {
           return { kind: 'taken', taken: await this.service.decide(this.day, asked, seq) }
         } catch (problem) {
-          if (!(problem instanceof ProblemError) || problem.status !== GONE_ON) throw problem
+          if (!(problem instanceof ProblemError) || problem.status !== PRECONDITION_FAILED) throw problem
         }
         const now = await this.service.propose(this.day, shown.aircraft, this.policy)
         if (now.to !== shown.to) {

@@ -1,11 +1,8 @@
 // The clock of a live day, updated every frame. It stops while the connection is lost, because
 // events in that time are unknown.
 
-import { Pace } from '../model/pace'
+import { CALM_MS, Pace } from '../model/pace'
 import type { Seconds } from '../model/record'
-
-/** With reduced motion, pictures are updated at this interval instead of every frame. */
-const CALM_MS = 1_000
 
 export class Clock {
   /** The time of the day as text: never before the latest known event. */

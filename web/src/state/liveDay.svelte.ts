@@ -2,7 +2,7 @@
 // the rules, so after events its state and outlook are read again, at a limited rate.
 
 import type { Service } from '../api/client'
-import { ProblemError } from '../api/problem'
+import { ProblemError, UNAUTHORIZED } from '../api/problem'
 import { follow, type Connection } from '../api/stream'
 import type { AircraftState, DayInfo, DayState, Outlook, TakenEvent } from '../api/types'
 import { alertsOf, type Alert } from '../model/alerts'
@@ -38,8 +38,6 @@ const STATE_PACE = { soon_ms: 60, least_ms: 500, share: 3 }
 const OUTLOOK_PACE = { soon_ms: 250, least_ms: 1_500, share: 4 }
 
 const SECOND_MS = 1_000
-
-const UNAUTHORIZED = 401
 
 export class LiveDay {
   info = $state.raw<DayInfo>()

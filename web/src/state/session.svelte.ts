@@ -2,11 +2,10 @@
 // in an address, which logs and histories would store.
 
 import { Service } from '../api/client'
-import { ProblemError } from '../api/problem'
+import { ProblemError, UNAUTHORIZED } from '../api/problem'
 import type { ServiceInfo } from '../api/types'
 
 const KEY = 'vertifleet-token'
-const UNAUTHORIZED = 401
 
 class Session {
   #token = $state<string | undefined>(sessionStorage.getItem(KEY) ?? undefined)

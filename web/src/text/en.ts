@@ -13,7 +13,6 @@ export const en = {
     title: 'Vertifleet',
     skip: 'Skip to the content',
     views: 'Views',
-    menu: 'Commands and settings',
     palette: 'Find a command',
     paletteHint: 'Find a command, an aircraft or a vertiport',
     paletteEmpty: 'No matches.',

@@ -2,7 +2,7 @@
 // lower-case and its hints name requests. Here they become sentences, and a missing object comes
 // with a link to the list of such objects.
 
-import type { ProblemError } from '../api/problem'
+import { FORBIDDEN, type ProblemError } from '../api/problem'
 import { hashOf, type OtherView } from '../model/route'
 import { text } from './text'
 
@@ -15,8 +15,7 @@ export interface ProblemText {
   way?: { href: string; title: string }
 }
 
-const NOT_FOUND = 'V602'
-const FORBIDDEN = 403
+const NOT_FOUND_CODE = 'V602'
 
 type Missing = keyof typeof text.errors.notFound
 const lists: Readonly<Partial<Record<Missing, OtherView>>> = {
@@ -28,7 +27,7 @@ const lists: Readonly<Partial<Record<Missing, OtherView>>> = {
 export function problemText(problem: ProblemError): ProblemText {
   const { status, code, detail, hint } = problem
   if (status === 0) return { title: text.errors.noAnswer }
-  const missing = code === NOT_FOUND ? missingOf(detail) : undefined
+  const missing = code === NOT_FOUND_CODE ? missingOf(detail) : undefined
   if (missing !== undefined) return notFound(missing.what, missing.id)
   const remedy = hint === undefined || isForPrograms(hint) ? undefined : sentenceOf(hint)
   const known = remedy ?? (status === FORBIDDEN ? text.errors.notPermittedHint : undefined)

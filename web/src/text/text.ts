@@ -2,6 +2,6 @@
 
 import { en } from './en'
 
-export type Texts = typeof en
+type Texts = typeof en
 
 export const text: Texts = en

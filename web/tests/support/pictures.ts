@@ -9,11 +9,12 @@ import { pathToFileURL } from 'node:url'
 import { test as base, type Page } from '@playwright/test'
 import { createServer, type ViteDevServer } from 'vite'
 import { chromium } from './browsers'
+import { program } from './program'
+import { useOneFont } from './screens'
 
 export { expect } from '@playwright/test'
 export { expectAccessible, expectAccessibleInBoth } from './test'
 
-const program = resolve(process.env['VERTIFLEET_PROGRAM'] ?? '../target/checked/release/vertifleet')
 const fixtures = resolve('src/model/fixtures')
 const large = resolve('../networks/large.toml')
 
@@ -128,18 +129,6 @@ export const test = base.extend<Fixtures, WorkerFixtures>({
     })
   },
 })
-
-/**
- * Screenshots use a font that `scripts/console` installs, regardless of the machine's preferences.
- */
-function useOneFont(): void {
-  const style = () => {
-    const sheet = new CSSStyleSheet()
-    sheet.replaceSync(":root { --sans: 'Liberation Sans' !important; --mono: 'Liberation Mono' !important }")
-    document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet]
-  }
-  document.addEventListener('DOMContentLoaded', style)
-}
 
 export function fixture(file: string): string {
   return join(fixtures, file)

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os'
 import { join, resolve } from 'node:path'
 import { preview, type PreviewServer } from 'vite'
 
-const program = resolve(process.env['VERTIFLEET_PROGRAM'] ?? '../target/checked/release/vertifleet')
+export const program = resolve(process.env['VERTIFLEET_PROGRAM'] ?? '../target/checked/release/vertifleet')
 /** A folder from which the console is served instead of the program. */
 const previewed = process.env['VERTIFLEET_PREVIEW']
 

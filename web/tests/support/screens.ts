@@ -20,3 +20,15 @@ export async function expectToLook(page: Page, name: string, mask: Locator[] = [
     await expect.soft(page).toHaveScreenshot(`${name}-${colorScheme}.png`, { ...TOLERANCE, mask })
   }
 }
+
+/**
+ * Screenshots use a font that `scripts/console` installs, regardless of the machine's preferences.
+ */
+export function useOneFont(): void {
+  const style = () => {
+    const sheet = new CSSStyleSheet()
+    sheet.replaceSync(":root { --sans: 'Liberation Sans' !important; --mono: 'Liberation Mono' !important }")
+    document.adoptedStyleSheets = [...document.adoptedStyleSheets, sheet]
+  }
+  document.addEventListener('DOMContentLoaded', style)
+}

@@ -5,7 +5,7 @@
 const LETTERS = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_'
 const CODES = new Map(Array.from(LETTERS, (letter, code) => [letter, code]))
 /** Units per degree: one is about a hundred metres, which is finer than the source. */
-export const UNITS = 1000
+const UNITS = 1000
 
 /**
  * Encodes points in degrees as text, relative to an origin in degrees. Points equal to the previous

@@ -8,7 +8,7 @@ import { NONE } from '../../model/motion'
 import { aircraftMeant } from '../../model/target'
 import type { Pixel } from '../../parts/pointers'
 import { css } from '../../parts/colours'
-import { piecesOf, radiusOf, ringWidth } from '../rings'
+import { piecesOf, radiusOf, ringWidth, TURN } from '../rings'
 import { aircraftPixel, direction, vertiportPixel, visibility, wayBegin } from '../where'
 import { changed } from './changes'
 import {
@@ -24,7 +24,6 @@ import {
 import { Sheet } from '../../parts/sheet'
 import { drawSprites, FILLED, spriteName, toneOf, type Sprites } from './sprites'
 
-const TURN = 2 * Math.PI
 /** Aircraft further outside the picture than this are not drawn. */
 const BEYOND_PX = 20
 

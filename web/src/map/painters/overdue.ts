@@ -5,13 +5,13 @@ import { NONE } from '../../model/motion'
 import { css } from '../../parts/colours'
 import { Sheet } from '../../parts/sheet'
 import { text } from '../../text/text'
+import { TURN } from '../rings'
 import { aircraftPixel, vertiportPixel } from '../where'
 import { looksOf, type Picture } from './painter'
 
 const LETTERS_PX = 11
 const RING_PX = 4
 const RIM_PX = 3
-const TURN = 2 * Math.PI
 
 export class OverduePainter {
   readonly #sheet = new Sheet()

@@ -1,6 +1,6 @@
 // Changes to the demand of a network: one pair, one period, one weight, or the whole model.
 
-import { at } from '../arrays'
+import { at, total } from '../arrays'
 import { asDaily, byPeriod, rounded } from './demand'
 import { demandMembers, draftOf, member, type DemandDraft, type Draft } from './draft'
 import { addTable, append, apply, remove, set, type Splice } from './edits'
@@ -64,8 +64,8 @@ export function withDailyDemand(file: TomlFile): string {
 /** The passengers per percent of the shares over the whole day, for a period whose share is 0. */
 function passengersOfPercent(draft: Draft): number {
   const all = draft.demand !== undefined && 'shares' in draft.demand ? draft.demand.shares : []
-  const percent = all.reduce((total, one) => total + one, 0)
-  const passengers = byPeriod(draft).reduce((total, one) => total + one, 0)
+  const percent = total(all)
+  const passengers = total(byPeriod(draft))
   return percent > 0 ? passengers / percent : 0
 }
 
@@ -91,9 +91,8 @@ function setHourlyPair(
  * otherwise evenly.
  */
 function spreadLike(former: readonly number[], all: readonly number[], amount: number): number[] {
-  const whole = (values: readonly number[]) => values.reduce((total, one) => total + one, 0)
-  const shape = whole(former) > 0 ? former : whole(all) > 0 ? all : all.map(() => 1)
-  const unit = amount / Math.max(whole(shape), Number.MIN_VALUE)
+  const shape = total(former) > 0 ? former : total(all) > 0 ? all : all.map(() => 1)
+  const unit = amount / Math.max(total(shape), Number.MIN_VALUE)
   return shape.map((one) => rounded(one * unit, PASSENGER_DIGITS))
 }
 

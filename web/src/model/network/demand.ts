@@ -1,7 +1,7 @@
 // The mean passengers of each pair and period in a demand model, as defined in
 // docs/src/reference/files.md. The service draws days from them; here they are only displayed.
 
-import { at } from '../arrays'
+import { at, total } from '../arrays'
 import type { DemandDraft, Draft } from './draft'
 
 /** Mean passengers of one pair in one period. */
@@ -56,7 +56,7 @@ export function asDaily(draft: Draft): { shares: number[]; passengers: number[][
     }
   }
   const perPeriod = byPeriod(draft)
-  const all = perPeriod.reduce((total, one) => total + one, 0)
+  const all = total(perPeriod)
   const shares = perPeriod.map((one) => rounded(all === 0 ? 0 : (100 * one) / all, 3))
   return { shares, passengers: byPair(draft).map((row) => row.map((one) => rounded(one, 2))) }
 }
@@ -66,11 +66,15 @@ export function rounded(value: number, digits: number): number {
 }
 
 /** The product of two vertiports' weights, scaled so that the sum over all pairs is the total. */
-function gravity({ shares, total, weights }: Extract<DemandDraft, { model: 'gravity' }>): MeanDemand {
+function gravity({
+  shares,
+  total: passengers,
+  weights,
+}: Extract<DemandDraft, { model: 'gravity' }>): MeanDemand {
   const weight = sum(weights.length, (one) => at(weights, one))
   const squares = sum(weights.length, (one) => at(weights, one) ** 2)
   const all = weight ** 2 - squares
-  const scale = all > 0 ? total / all : 0
+  const scale = all > 0 ? passengers / all : 0
   return (period, from, to) =>
     from === to ? 0 : ((shares[period] ?? 0) / 100) * scale * (weights[from] ?? 0) * (weights[to] ?? 0)
 }
@@ -104,7 +108,7 @@ function table(size: number, cell: (from: number, to: number) => number): number
 }
 
 function sum(count: number, of: (index: number) => number): number {
-  let total = 0
-  for (let index = 0; index < count; index++) total += of(index)
-  return total
+  let all = 0
+  for (let index = 0; index < count; index++) all += of(index)
+  return all
 }

@@ -196,7 +196,7 @@ function headingOf(table: Table): { range: readonly [number, number] } {
   return table.key
 }
 
-export function newlineOf(file: TomlFile): string {
+function newlineOf(file: TomlFile): string {
   return file.text.includes('\r\n') ? '\r\n' : '\n'
 }
 

@@ -1,5 +1,6 @@
 import { readFileSync } from 'node:fs'
 import { describe, expect, it } from 'vitest'
+import { total } from '../arrays'
 import { setPair, setPeriod, withDailyDemand } from './change'
 import { byPair, byPeriod, meanDemand } from './demand'
 import { draftOf, member } from './draft'
@@ -18,7 +19,6 @@ import { TomlFile } from './toml'
 const read = (name: string) =>
   new TomlFile(readFileSync(new URL(`../../../../networks/${name}.toml`, import.meta.url), 'utf8'))
 const after = (file: TomlFile, splices: Splice[]) => new TomlFile(apply(file.text, splices))
-const sum = (values: number[]) => values.reduce((total, one) => total + one, 0)
 
 const hourly = new TomlFile(`name = "h"
 [[vertiports]]
@@ -103,8 +103,8 @@ describe('vertiports', () => {
 describe('demand', () => {
   it('equals that of the service in all models', () => {
     // The totals that the service reports for the shipped networks.
-    expect(sum(byPeriod(draftOf(read('new-york').value)))).toBeCloseTo(7752, 6)
-    expect(sum(byPeriod(draftOf(read('paper').value)))).toBe(26100)
+    expect(total(byPeriod(draftOf(read('new-york').value)))).toBeCloseTo(7752, 6)
+    expect(total(byPeriod(draftOf(read('paper').value)))).toBe(26100)
     const mean = meanDemand(draftOf(read('paper').value))
     // V1 is busy and V5 is not: the morning peak is at 8:00, the evening peak at 16:00.
     expect([mean(2, 4, 0), mean(2, 0, 4), mean(10, 0, 4), mean(5, 0, 1), mean(5, 0, 4)]).toEqual([

@@ -31,7 +31,7 @@ export function placeOf(draft: Draft, vertiport: number): Place | undefined {
   return east === undefined || north === undefined ? undefined : { east, north }
 }
 
-export function roundedPlace({ east, north }: Place, isGlobe: boolean): Place {
+function roundedPlace({ east, north }: Place, isGlobe: boolean): Place {
   const digits = isGlobe ? DEGREE_DIGITS : MILE_DIGITS
   return { east: rounded(east, digits), north: rounded(north, digits) }
 }

@@ -2,7 +2,7 @@
 // same seeds. It outlives the view, like the network.
 
 import { untrack } from 'svelte'
-import { refusal, type ProblemError } from '../../api/problem'
+import { NOT_FOUND, refusal, type ProblemError } from '../../api/problem'
 import type { PolicyResult, StudyInfo } from '../../api/types'
 import { session } from '../../state/session.svelte'
 import { toasts } from '../../state/toasts.svelte'
@@ -10,7 +10,6 @@ import { follow, hasEnded } from '../studies/follow'
 import type { NetworkText } from './editor.svelte'
 
 const SEED = 1
-const NOT_FOUND = 404
 
 /** A request: days of the same seeds, by one policy. */
 interface StudyRequest {

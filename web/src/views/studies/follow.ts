@@ -1,7 +1,7 @@
 // Follows a study until it has ended. It polls, because the service has no stream of studies: they
 // last for minutes and have few viewers.
 
-import { ProblemError } from '../../api/problem'
+import { NOT_FOUND, ProblemError } from '../../api/problem'
 import type { StudyInfo } from '../../api/types'
 import { session } from '../../state/session.svelte'
 
@@ -34,7 +34,7 @@ export function follow(
       if (!(cause instanceof ProblemError)) throw cause
       if (isStopped) return
       fail(cause)
-      if (cause.status === 404) return
+      if (cause.status === NOT_FOUND) return
       pause_ms = RETRY_MS
     }
     timer = setTimeout(() => void poll(), pause_ms)
