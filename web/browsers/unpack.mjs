@@ -1,5 +1,5 @@
-// Unpacks the browsers of this folder's packages into `unpacked/newest` and `unpacked/oldest`. Their own code would unpack both to
-// the same place of the machine.
+// Unpacks the browsers of this folder's packages into `unpacked/newest` and `unpacked/oldest`. The
+// packages' own code would unpack both to the same folder.
 
 import { execFileSync } from 'node:child_process'
 import { chmodSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs'

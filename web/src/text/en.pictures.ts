@@ -209,12 +209,13 @@ export const replay = {
   fromFiles: 'From files:',
   backToDay: (day: string) => `Back to ${day}`,
   traceOf: (name: string) => `${name}, from a file`,
-  unknownBeside: (name: string) => `There is no policy “${name}” to compare with the day.`,
+  unknownPolicy: (name: string) => `There is no policy “${name}” to compare with the day.`,
   asItWas: 'Actual day',
   planned: (policy: string) => `${policy}, as planned in the morning`,
   plannedExplanation: (policy: string) =>
     `The decisions of ${policy} if the day had gone as forecast in the morning.`,
-  besideHint: 'Compares the day with a policy’s decisions if the day had gone as forecast in the morning.',
+  comparisonHint:
+    'Compares the day with a policy’s decisions if the day had gone as forecast in the morning.',
   planning: (policy: string) => `Planning the day with ${policy}…`,
   daysOfService: 'Days of this service',
   inFile: (file: string, fault: string) => `${file}: ${fault}`,

@@ -1,5 +1,5 @@
-// The two timelines of a day, which one Gantt draws: the fleet, with a row for each aircraft, and
-// the stands, with a row for each stand of every vertiport.
+// The two timelines of a day, which one Gantt draws. The fleet has a row for each aircraft; the
+// stands have a row for each stand of every vertiport.
 
 import type { DayRecord, Seconds } from '../model/record'
 import type { Target } from '../model/target'

@@ -36,7 +36,7 @@ export function set(file: TomlFile, path: Path, value: Literal): Splice[] {
   if (holder !== undefined && 'value' in holder) return intoInlineTable(holder.value, name, value)
   const line = `${key(name)} = ${literal(value, newlineOf(file))}`
   if (holder !== undefined) return [behind(file, holder.table.body.at(-1) ?? headingOf(holder.table), line)]
-  return [besideDotted(file, parent, name, value) ?? intoRoot(file, parent, line)]
+  return [intoDotted(file, parent, name, value) ?? intoRoot(file, parent, line)]
 }
 
 /** Removes a member, a table with all of its members, or an entry of a list. */
@@ -120,7 +120,7 @@ function behind(file: TomlFile, { range }: { range: readonly [number, number] },
 }
 
 /** If the table is written with dotted keys (`gravity.passengers = 1`), the new member is too. */
-function besideDotted(file: TomlFile, parent: Path, name: string, value: Literal): Splice | undefined {
+function intoDotted(file: TomlFile, parent: Path, name: string, value: Literal): Splice | undefined {
   const holders = [{ begin: [] as Path, body: file.rootPairs }].concat(
     file.tables.map(({ resolvedKey, body }) => ({ begin: resolvedKey, body })),
   )

@@ -1,7 +1,7 @@
-// A network file as text with the position of every member, so that a form can change one number
-// and keep everything else as written: comments, order, spaces. The parser is toml-eslint-parser,
-// because it keeps the position of every node. Libraries that rewrite a file, or patch it from an
-// object, lose comments between two tables.
+// A network file as text with the position of every member. A form can change one number and keep
+// everything else as written: comments, order, spaces. The parser is toml-eslint-parser, because it
+// keeps the position of every node. Libraries that rewrite a file, or patch it from an object, lose
+// comments between two tables.
 
 import { getStaticTOMLValue, ParseError, parseTOML, type AST } from 'toml-eslint-parser'
 
