@@ -1,1 +1,0 @@
-function e(e,t){return e[t]}function t(t,n,r=0,i=t.length-r){let[a,o]=[0,i];for(;a<o;){let i=a+o>>1;e(t,r+i)<=n?a=i+1:o=i}return a}function n(e,t){let n=new Map;for(let r of e){let e=t(r),i=n.get(e);i===void 0?n.set(e,[r]):i.push(r)}return n}export{t as n,n as r,e as t};
