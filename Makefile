@@ -14,7 +14,7 @@ program: prepare
 # The settings of tests, which .cargo/checked.toml explains.
 CHECKED = --config .cargo/checked.toml --release --workspace --locked
 
-# What to run before a commit, in minutes: formatting, clippy, and the tests that find most: those beside the code.
+# What to run before a commit, in minutes: formatting, clippy, and the tests that find most: those next to the code.
 check: prepare
 	cargo fmt --all --check
 	cargo clippy $(CHECKED) --all-targets -- -D warnings

@@ -37,7 +37,7 @@ def with_passengers(text: str, passengers: int) -> str:
 
 
 def with_vertiports(text: str, vertiports: int, aircraft: int, passengers: int) -> str:
-    """A network like `new-york` with so many vertiports, spread evenly over the same area, and no disturbances."""
+    """A network like `new-york` with this number of vertiports, spread evenly over the same area, and no disturbances."""
     head, rest = text.split("[[vertiports]]", 1)
     _, tail = rest.split("[[aircraft_types]]", 1)
     head = head.replace('name = "new-york"', f'name = "even-{vertiports}-{passengers}"')

@@ -9,7 +9,7 @@ fn main() {
         output.status.success().then(|| text.trim().to_owned())
     };
     let commit = git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
-    // Sources only: what lies about beside them does not change the program.
+    // Sources only: other files next to them do not change the program.
     let changed = git(&["status", "--porcelain", "--", ":/crates", ":/networks", ":/Cargo.lock"]);
     let mark = if changed.is_some_and(|files| !files.is_empty()) { "-dirty" } else { "" };
     let commit = commit + mark;

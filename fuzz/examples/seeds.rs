@@ -1,4 +1,5 @@
-//! Writes weight files to begin fuzzing with, the smallest there are of each kind: `cargo run --example seeds -- FOLDER`.
+//! Writes weight files to begin fuzzing with, the smallest there are of each kind: `cargo run
+//! --example seeds -- FOLDER`.
 
 use std::path::PathBuf;
 use std::sync::Arc;

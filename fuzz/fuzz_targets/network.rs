@@ -1,4 +1,5 @@
-//! The network reader on any text: it never panics, and every day drawn from what it accepts is a valid scenario.
+//! The network reader on any text: it never panics, and every day drawn from what it accepts is a
+//! valid scenario.
 
 #![no_main]
 

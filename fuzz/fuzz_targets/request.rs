@@ -1,5 +1,6 @@
-//! The service on bytes that stand in the place of every part of a request: each request is answered, and every day stays
-//! one that can be described, played on, and read again from the store as it is in memory.
+//! The service on bytes that stand in the place of every part of a request: each request is
+//! answered, and every day stays one that can be described, played on, and read again from the
+//! store as it is in memory.
 
 #![no_main]
 

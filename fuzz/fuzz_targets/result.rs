@@ -1,5 +1,5 @@
-//! The reader of result files on any bytes: it never panics, and what it accepts can be verified, with findings and
-//! without a panic.
+//! The reader of result files on any bytes: it never panics, and what it accepts can be verified,
+//! with findings and without a panic.
 
 #![no_main]
 

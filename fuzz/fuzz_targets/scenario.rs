@@ -1,4 +1,5 @@
-//! The scenario reader on any bytes: it never panics, and what it accepts reads back as it is written.
+//! The scenario reader on any bytes: it never panics, and what it accepts reads back as it is
+//! written.
 
 #![no_main]
 

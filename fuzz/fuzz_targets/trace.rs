@@ -1,5 +1,5 @@
-//! The trace reader on any bytes: it never panics, what it accepts reads back as it is written, and the checker has a verdict on
-//! every schedule.
+//! The trace reader on any bytes: it never panics, what it accepts reads back as it is written, and
+//! the checker has a verdict on every schedule.
 
 #![no_main]
 

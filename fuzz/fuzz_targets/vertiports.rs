@@ -1,4 +1,5 @@
-//! The reader of vertiports (CSV, Parquet, GeoJSON) on any bytes: it never panics, and days can be drawn from every network that it makes.
+//! The reader of vertiports (CSV, Parquet, GeoJSON) on any bytes: it never panics, and days can be
+//! drawn from every network that it makes.
 
 #![no_main]
 

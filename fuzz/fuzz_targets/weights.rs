@@ -1,5 +1,5 @@
-//! The weight readers on any bytes: they never panic, what they accept reads back as it is written, and a policy that was read
-//! decides from the mask, whatever its weights are.
+//! The weight readers on any bytes: they never panic, what they accept reads back as it is written,
+//! and a policy that was read decides from the mask, with any weights.
 
 #![no_main]
 

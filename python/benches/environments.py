@@ -3,7 +3,7 @@
 A step is one decision of one aircraft: a random feasible action is drawn from the mask, the environment takes
 it, and makes the next observation and mask. All of that is counted, and so is the start of a new day whenever
 one ends; the native environments draw that day then, the plain one takes it from days drawn beforehand. The
-call of a batch that starts an ended day anew takes no decision there and counts as no step. The single native
+call of a batch that restarts an ended day takes no decision there and counts as no step. The single native
 environment is as `gymnasium.make` gives it, with its wrappers; the plain one has none.
 
     python -m pip install ./python

@@ -1,4 +1,4 @@
-"""Steps a second of this project's batch environment beside those of two libraries for routing, by turns.
+"""Steps a second of this project's batch environment and those of two libraries for routing, by turns.
 
 Their worlds are other ones (a vehicle that visits customers), so this compares what a learner waits for, and
 not the work done. Jumanji and RL4CO need other versions of their dependencies, so each has its own Python:

@@ -3,7 +3,7 @@
 A baseline to measure the native environments against, and no part of the package. It plays days given as
 scenario files (format vertifleet-scenario/1), with the same decisions, observations, masks and terminal
 reward as `vertifleet/Fleet-v0` on the paper's network. Left out: forecasts that differ from the demand,
-take-off delays, closures, outages, corridors and chargers beside stands; a day that has them is refused.
+take-off delays, closures, outages, corridors and chargers besides stands; a day that has them is refused.
 """
 
 import heapq

@@ -8,7 +8,7 @@ loss and in the steps of the program, and writes weights that the program decide
     vertifleet evaluate --policies gcaps-full --suite paper-100 --model gcaps-full=mine.safetensors
 
 A graph whose edges are observed (`--set adjacency=profit`) needs samples of a run with the same adjacency.
-After every pass the weights are written, and beside them what the same call with `--resume` goes on from.
+After every pass the weights are written, and next to them the state from which the same call with `--resume` continues.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from vertifleet import Error
 from vertifleet.torch import GcapsFull, Graph, save, scores
 
 LOGITS_A_UNIT = 20.0
-"""The values of roll-outs are counted in typical full flights; one of these is so many logits."""
+"""The values of roll-outs are counted in typical full flights; one of these is this many logits."""
 SEEING_THE_SAME = ("gcaps-full", "mlp-full")
 """The policies whose samples show what `gcaps-full` sees."""
 MOST_NORM = 0.5
@@ -153,7 +153,7 @@ def arguments() -> argparse.Namespace:
     )
     parser.add_argument("--network", help="network that the weights are for; that of the run by default")
     parser.add_argument("--passes", type=int, default=48, help="passes over all samples")
-    parser.add_argument("--until", type=int, help="stop after so many of them; --resume goes on")
+    parser.add_argument("--until", type=int, help="stop after this many of them; --resume goes on")
     parser.add_argument(
         "--resume", action="store_true", help="go on where an earlier call stopped, if one did"
     )

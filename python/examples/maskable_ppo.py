@@ -2,7 +2,7 @@
 
 The program can then compare it with other policies on days that it has not seen; the last line of the output
 says how. Ctrl-C ends the training and saves what was learned so far. The learner itself, 12 MB, is saved
-after every roll-out, in a folder beside the weight file: `MaskablePPO.load(path, env=days)` continues from
+after every roll-out, in a folder next to the weight file: `MaskablePPO.load(path, env=days)` continues from
 there.
 
     python examples/maskable_ppo.py --steps 20000 --seed 1 --out mine.safetensors

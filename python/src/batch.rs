@@ -1,7 +1,9 @@
-//! `Batch`: many days side by side, advanced by several threads. The vector environment is built on it.
+//! `Batch`: many days side by side, advanced by several threads. The vector environment is built on
+//! it.
 //!
-//! The observations of steps alternate between two sets of arrays, so that the observations of one step stay unchanged
-//! during the next step. A third set is for resets of some slots, which happen between two steps.
+//! The observations of steps alternate between two sets of arrays, so that the observations of one
+//! step stay unchanged during the next step. A third set is for resets of some slots, which happen
+//! between two steps.
 
 use std::sync::Mutex;
 
@@ -21,8 +23,8 @@ use crate::threads::Threads;
 use crate::view::View;
 use crate::whole_number::WholeNumber;
 
-/// Number of days that one thread advances at a time. This is about ten microseconds of work, far more than the cost of
-/// handing it to a thread.
+/// Number of days that one thread advances at a time. This is about ten microseconds of work, far
+/// more than the cost of handing it to a thread.
 const GRAIN: usize = 16;
 
 /// How the day that follows a finished day begins.
@@ -30,7 +32,8 @@ const GRAIN: usize = 16;
 enum Autoreset {
     /// The next step begins a new day, whatever the action is.
     NextStep,
-    /// The step that ends a day also begins a new one. The last observation of the old day goes to separate arrays.
+    /// The step that ends a day also begins a new one. The last observation of the old day goes to
+    /// separate arrays.
     SameStep,
     /// The caller begins a new day.
     Disabled,
@@ -57,7 +60,8 @@ pub(crate) struct Batch {
     /// The last observations of days that ended and were followed by another day in the same step.
     finals: Observations,
     outcomes: Outcomes,
-    /// The index in `sets` of the set that the latest step, or the latest reset of all slots, wrote to.
+    /// The index in `sets` of the set that the latest step, or the latest reset of all slots, wrote
+    /// to.
     latest: usize,
     threads: Threads,
 }
@@ -104,7 +108,8 @@ impl Batch {
         })
     }
 
-    /// The arrays of the three sets of observations, of the final observations, and of the latest outcomes.
+    /// The arrays of the three sets of observations, of the final observations, and of the latest
+    /// outcomes.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<[Bound<'py, PyTuple>; 5]> {
         let [first, second, third] = &self.sets;
         Ok([
@@ -116,9 +121,9 @@ impl Batch {
         ])
     }
 
-    /// Begins a day at each slot for which `which` is true: the day with the slot's number in `numbers`, or its
-    /// scenario if these are given. Writes the observations of all slots, and returns the index of the set that they are
-    /// in.
+    /// Begins a day at each slot for which `which` is true: the day with the slot's number in
+    /// `numbers`, or its scenario if these are given. Writes the observations of all slots, and
+    /// returns the index of the set that they are in.
     fn reset(
         &mut self,
         py: Python<'_>,
@@ -158,7 +163,9 @@ impl Batch {
         Ok(set)
     }
 
-    /// Takes one decision at every slot. Where a new day is due, the day with the slot's number in `numbers` begins. Returns the index of the set that the observations are in, and whether any day is over or has begun.
+    /// Takes one decision at every slot. Where a new day is due, the day with the slot's number in
+    /// `numbers` begins. Returns the index of the set that the observations are in, and whether any
+    /// day is over or has begun.
     fn step(
         &mut self,
         py: Python<'_>,
@@ -199,13 +206,14 @@ impl Batch {
         self.slots.get(slot)?.day.as_ref().map(Day::view)
     }
 
-    /// What came of the latest step's choice at a slot; `None` if the step began a day there instead.
+    /// What came of the latest step's choice at a slot; `None` if the step began a day there
+    /// instead.
     fn outcome(&self, slot: usize) -> Option<OutcomeFields> {
         self.slots.get(slot)?.outcome.as_ref().map(OutcomeFields::from)
     }
 
-    /// The results of the day that the latest step ended at a slot, as `vertifleet simulate --json` prints them, or
-    /// `None` if it ended no day there.
+    /// The results of the day that the latest step ended at a slot, as `vertifleet simulate --json`
+    /// prints them, or `None` if it ended no day there.
     fn summary<'py>(&self, py: Python<'py>, slot: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
         let summary = self.slots.get(slot).and_then(|slot| slot.summary);
         summary.map(|summary| plain(py, &summary)).transpose()
@@ -244,8 +252,8 @@ impl Batch {
         self.latest
     }
 
-    /// Calls `each` for every slot, on all threads if there are more than [`GRAIN`] slots. The observations go to the
-    /// set with index `set`. Returns whether any day is over or has begun.
+    /// Calls `each` for every slot, on all threads if there are more than [`GRAIN`] slots. The
+    /// observations go to the set with index `set`. Returns whether any day is over or has begun.
     fn on_all(
         &mut self,
         py: Python<'_>,
@@ -329,8 +337,8 @@ impl Part<'_> {
     }
 }
 
-/// One share of the batch for each thread. The shares are the same in every step, so that the days of a share stay in
-/// the cache of the same core.
+/// One share of the batch for each thread. The shares are the same in every step, so that the days
+/// of a share stay in the cache of the same core.
 struct Shares<'a>(Vec<Mutex<Option<Part<'a>>>>);
 
 impl<'a> Shares<'a> {
@@ -346,8 +354,8 @@ impl<'a> Shares<'a> {
         Self(shares)
     }
 
-    /// Calls `each` for every slot of the thread's own share, and then for the slots of other shares that no thread has
-    /// taken yet.
+    /// Calls `each` for every slot of the thread's own share, and then for the slots of other
+    /// shares that no thread has taken yet.
     fn each(&self, thread: usize, each: &(impl Fn(&mut Slot, Row<'_, '_>, usize) + Sync)) {
         let others = (thread..self.0.len()).chain(0..thread);
         for share in others.map(|share| &self.0[share]) {

@@ -1,4 +1,5 @@
-//! The arrays of a batch. Numpy allocates them once, and many threads fill them in place, row by row.
+//! The arrays of a batch. Numpy allocates them once, and many threads fill them in place, row by
+//! row.
 
 use numpy::{
     PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray1, PyReadwriteArray2, PyUntypedArrayMethods,
@@ -6,7 +7,8 @@ use numpy::{
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// Arrays with one observation for each day of a batch, laid out as its layout says, and their masks.
+/// Arrays with one observation for each day of a batch, laid out as its layout says, and their
+/// masks.
 pub(crate) struct Observations {
     rows: Py<PyArray2<f32>>,
     masks: Py<PyArray2<i8>>,
@@ -20,7 +22,8 @@ pub(crate) struct Outcomes {
     begun: Py<PyArray1<bool>>,
 }
 
-/// Write access to [`Observations`]. Python keeps the arrays during this time, and numpy refuses to lend them twice.
+/// Write access to [`Observations`]. Python keeps the arrays during this time, and numpy refuses to
+/// lend them twice.
 pub(crate) struct ObservationsLent<'py> {
     rows: PyReadwriteArray2<'py, f32>,
     masks: PyReadwriteArray2<'py, i8>,
@@ -86,7 +89,8 @@ impl Outcomes {
         }
     }
 
-    /// The rewards, whether days are over, whether actions were infeasible, and whether new days have begun.
+    /// The rewards, whether days are over, whether actions were infeasible, and whether new days
+    /// have begun.
     pub(crate) fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let Self { rewards, over, invalid, begun } = self;
         (rewards, over, invalid, begun).into_pyobject(py)

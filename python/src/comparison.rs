@@ -37,8 +37,9 @@ pub(crate) struct Comparison {
 
 #[pymethods]
 impl Comparison {
-    /// A row for each policy and day, as a dict of numpy arrays, one for each column, in dollars, kWh and counts.
-    /// `upper_bound_usd` and `bound_share` are present only if bounds were requested.
+    /// A row for each policy and day, as a dict of numpy arrays, one for each column, in dollars,
+    /// kWh and counts. `upper_bound_usd` and `bound_share` are present only if bounds were
+    /// requested.
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let columns = Columns::new(py);
@@ -61,8 +62,8 @@ impl Comparison {
         Ok(columns.into_dict())
     }
 
-    /// Warnings about what is allowed but probably not intended, such as shipped weights on a changed copy of their
-    /// network.
+    /// Warnings about what is allowed but probably not intended, such as shipped weights on a
+    /// changed copy of their network.
     #[getter]
     pub(crate) fn warnings(&self) -> Vec<String> {
         self.warnings.clone()
@@ -78,16 +79,16 @@ impl Comparison {
         frame(&self.columns(py)?, "polars")
     }
 
-    /// The statistics, as `vertifleet compare --json` prints them: means with confidence intervals, paired tests, times
-    /// per decision.
+    /// The statistics, as `vertifleet compare --json` prints them: means with confidence intervals,
+    /// paired tests, times per decision.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         loads(py, &self.statistics()?.to_json())
     }
 
-    /// Writes a table, figures and a report page into a folder, and returns the path of the page. An earlier report in
-    /// the folder is replaced, but a read-only one only with `force`. A folder that holds anything else is refused, or,
-    /// with `force`, kept under another name.
+    /// Writes a table, figures and a report page into a folder, and returns the path of the page.
+    /// An earlier report in the folder is replaced, but a read-only one only with `force`. A folder
+    /// that holds anything else is refused, or, with `force`, kept under another name.
     #[pyo3(signature = (folder, *, force = false))]
     fn report(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<PathBuf> {
         let written = py.detach(|| -> Result<_, Failure> {
@@ -99,8 +100,9 @@ impl Comparison {
         Ok(written.page)
     }
 
-    /// Joins comparisons of the same policies into one. Each part must begin with the day after the last day of the
-    /// part before it. Each time per decision in the result is the highest one among the parts.
+    /// Joins comparisons of the same policies into one. Each part must begin with the day after the
+    /// last day of the part before it. Each time per decision in the result is the highest one
+    /// among the parts.
     #[staticmethod]
     fn join(parts: Vec<PyRef<'_, Self>>) -> Result<Self, Failure> {
         let studies = parts.iter().map(|part| part.study.clone()).collect();
@@ -119,7 +121,8 @@ impl Comparison {
     fn from_json(text: &str, warnings: Vec<String>) -> Result<Self, Failure> {
         let study = serde_json::from_str(text);
         let study = study.map_err(|error| Failure::argument(format!("no comparison: {error}")))?;
-        // The statistics check the records, and everything that is shown of a comparison relies on these checks.
+        // The statistics check the records, and everything that is shown of a comparison relies on
+        // these checks.
         ComparisonReport::of(&study)?;
         Ok(Self { study, warnings })
     }
@@ -159,9 +162,10 @@ impl Comparison {
     }
 }
 
-/// The arguments of a comparison, by their names in Python. `policies` are names as in `vertifleet compare`. `models`
-/// maps names to weight files, `Model`s or functions. `bound` requests upper bounds with slices of `step` minutes.
-/// `policy_seed` is the seed of the random policy and of the planner's search.
+/// The arguments of a comparison, by their names in Python. `policies` are names as in `vertifleet
+/// compare`. `models` maps names to weight files, `Model`s or functions. `bound` requests upper
+/// bounds with slices of `step` minutes. `policy_seed` is the seed of the random policy and of the
+/// planner's search.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Arguments<'py> {
@@ -173,8 +177,8 @@ pub(crate) struct Arguments<'py> {
     policy_seed: WholeNumber,
 }
 
-/// The days of a comparison: `days` of them drawn from a network, the first from `seed`, or the caller's own, with a
-/// text that says where they came from.
+/// The days of a comparison: `days` of them drawn from a network, the first from `seed`, or the
+/// caller's own, with a text that says where they came from.
 #[derive(FromPyObject)]
 enum Days {
     Own { scenarios: Vec<Py<Scenario>>, origin: String },
@@ -250,7 +254,8 @@ impl Days {
     }
 }
 
-/// Checks everything about a comparison that can be checked before its days are played, and returns the warnings.
+/// Checks everything about a comparison that can be checked before its days are played, and returns
+/// the warnings.
 #[pyfunction]
 #[pyo3(signature = (network, arguments))]
 pub(crate) fn check_comparison(
@@ -268,8 +273,8 @@ pub(crate) fn check_comparison(
     Ok(warnings.map_err(Failure::from)?)
 }
 
-/// Reads the scenario files for a comparison, and returns the days and a text that says where they came from. A folder
-/// stands for all files in it whose names end in `.json`.
+/// Reads the scenario files for a comparison, and returns the days and a text that says where they
+/// came from. A folder stands for all files in it whose names end in `.json`.
 #[pyfunction]
 pub(crate) fn read_days(paths: Vec<PathBuf>) -> Result<(Vec<Scenario>, String), Failure> {
     let days = OwnDays::read(&paths)?;
@@ -277,9 +282,9 @@ pub(crate) fn read_days(paths: Vec<PathBuf>) -> Result<(Vec<Scenario>, String), 
     Ok((scenarios.into_iter().map(|scenario| Scenario { scenario }).collect(), from))
 }
 
-/// Plays days with every policy; all policies play the same days. A policy that is a function sees the caller's own
-/// days as days of `network`. `command` is the command that the report says it was made with. The `warnings` of the
-/// result name what is allowed but probably not intended.
+/// Plays days with every policy; all policies play the same days. A policy that is a function sees
+/// the caller's own days as days of `network`. `command` is the command that the report says it was
+/// made with. The `warnings` of the result name what is allowed but probably not intended.
 #[pyfunction]
 #[pyo3(signature = (network, arguments, *, threads, command))]
 pub(crate) fn compare(

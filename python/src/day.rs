@@ -29,8 +29,8 @@ pub(crate) struct Day {
     observer: Observer,
     /// What the views of the day share.
     views: Arc<Mutex<Observer>>,
-    /// The decision to be taken. When the day is over, it is the last decision that was taken, seen from where its
-    /// aircraft is now.
+    /// The decision to be taken. When the day is over, it is the last decision that was taken, seen
+    /// from where its aircraft is now.
     decision: Decision,
     over: bool,
 }
@@ -193,7 +193,8 @@ impl Day {
         Scenario { scenario: Arc::clone(self.simulation.scenario()) }
     }
 
-    /// Takes the current decision. An action that is not feasible counts as a hold. The day must not be over.
+    /// Takes the current decision. An action that is not feasible counts as a hold. The day must
+    /// not be over.
     pub(crate) fn step(&mut self, action: i64, reward: Reward) -> Outcome {
         let feasible = self.simulation.view().feasible(&self.decision);
         let asked =
@@ -249,7 +250,7 @@ impl Day {
 }
 
 impl Clone for Day {
-    /// The copy goes its own way, so it remembers prices of its own.
+    /// The copy continues independently, so it remembers its own prices.
     fn clone(&self) -> Self {
         let views = self.views.lock().unwrap_or_else(PoisonError::into_inner).clone();
         Self {

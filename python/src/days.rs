@@ -14,7 +14,8 @@ use crate::pickle::Reduced;
 /// The most vertiports, aircraft, types and periods of a random network.
 const RANDOM: Sizes = Sizes { vertiports: 30, aircraft: 150, types: 1, periods: 15 };
 
-/// Where days come from: given networks, or networks drawn anew for each day. Every number names a day.
+/// Where days come from: given networks, or networks of which a new one is drawn for each day.
+/// Every number names a day.
 #[pyclass(frozen, module = "vertifleet._native")]
 #[derive(Clone)]
 pub(crate) struct Days {
@@ -34,8 +35,8 @@ enum Source {
 
 #[pymethods]
 impl Days {
-    /// Days of some networks in turn, of "random", or of "random-places:N". `split` is "training", "validation" or
-    /// "comparison"; the days of one are never days of another.
+    /// Days of some networks in turn, of "random", or of "random-places:N". `split` is "training",
+    /// "validation" or "comparison"; the days of one are never days of another.
     #[new]
     fn new(source: SourceArgument, split: &str) -> Result<Self, Failure> {
         let purpose = purpose_of(split)?;
@@ -49,7 +50,7 @@ impl Days {
         Ok(Self { source, purpose })
     }
 
-    /// Whether a name stands for networks that are drawn anew for each day.
+    /// Whether a name stands for networks of which a new one is drawn for each day.
     #[staticmethod]
     fn are_drawn(name: &str) -> bool {
         name == "random" || name.starts_with(RANDOM_PLACES)

@@ -1,5 +1,5 @@
-//! `Environment`: one day at a time, and one decision at a time. The Gymnasium and PettingZoo environments are built on
-//! it.
+//! `Environment`: one day at a time, and one decision at a time. The Gymnasium and PettingZoo
+//! environments are built on it.
 
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -53,8 +53,8 @@ impl Environment {
         self.play(py, day, None)
     }
 
-    /// The observation of an aircraft at the current time. For an aircraft that does not decide now, only hold is
-    /// feasible.
+    /// The observation of an aircraft at the current time. For an aircraft that does not decide
+    /// now, only hold is feasible.
     fn observe<'py>(&mut self, py: Python<'py>, aircraft: u16) -> PyResult<Shown<'py>> {
         let Self { world, day, .. } = self;
         let fleet = |day: &Day| day.simulation().view().places().len();
@@ -68,8 +68,8 @@ impl Environment {
         })
     }
 
-    /// Takes the current decision. Returns the observation of the next one, the reward, whether the day is over, and
-    /// whether the action was infeasible.
+    /// Takes the current decision. Returns the observation of the next one, the reward, whether the
+    /// day is over, and whether the action was infeasible.
     fn step<'py>(
         &mut self,
         py: Python<'py>,
@@ -163,7 +163,8 @@ impl Environment {
         self.outcome.as_ref().map(OutcomeFields::from)
     }
 
-    /// Position of the aircraft that decides, or, when the day is over, of the aircraft that decided last.
+    /// Position of the aircraft that decides, or, when the day is over, of the aircraft that
+    /// decided last.
     #[getter]
     fn aircraft(&self) -> Option<u16> {
         Some(self.day.as_ref()?.decision().aircraft.0)

@@ -24,8 +24,8 @@ use crate::whole_number::WholeNumber;
 /// The seed of the random policy and of the planner's search, the same for everyone.
 const SEED: u64 = 1;
 
-/// The results of policies on one or more suites: shares of the certified bounds, and one row for each suite, policy
-/// and day.
+/// The results of policies on one or more suites: shares of the certified bounds, and one row for
+/// each suite, policy and day.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Evaluation {
     suites: Vec<EvaluationRecords>,
@@ -60,8 +60,8 @@ impl Evaluation {
         loads(py, &self.report()?.to_json())
     }
 
-    /// A row for each suite, policy and day, as a dict of numpy arrays, one for each column, in dollars, kWh and
-    /// counts.
+    /// A row for each suite, policy and day, as a dict of numpy arrays, one for each column, in
+    /// dollars, kWh and counts.
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let columns = Columns::new(py);
@@ -96,15 +96,17 @@ impl Evaluation {
         frame(&self.columns(py)?, "polars")
     }
 
-    /// Warnings about what is allowed but probably not intended, such as a policy that cannot play a suite.
+    /// Warnings about what is allowed but probably not intended, such as a policy that cannot play
+    /// a suite.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.warnings.clone()
     }
 
-    /// Writes a result file for each suite and policy into a folder, and returns their paths. `about` is what you say
-    /// about the policy, as ``{"training": "none"}``; the protocol lists what is expected. An existing file that is
-    /// read-only or not a result is replaced only with `force`.
+    /// Writes a result file for each suite and policy into a folder, and returns their paths.
+    /// `about` is what you say about the policy, as ``{"training": "none"}``; the protocol lists
+    /// what is expected. An existing file that is read-only or not a result is replaced only with
+    /// `force`.
     #[pyo3(signature = (folder, *, about = BTreeMap::new(), force = false))]
     fn save(
         &self,
@@ -209,8 +211,8 @@ pub(crate) fn suite_names() -> Vec<String> {
     SUITES.iter().map(|suite| suite.name.to_string()).collect()
 }
 
-/// A suite: its description, its network if it has one, its days, their bounds in dollars, and the minutes of the
-/// bounds' slices.
+/// A suite: its description, its network if it has one, its days, their bounds in dollars, and the
+/// minutes of the bounds' slices.
 #[pyfunction]
 #[expect(clippy::type_complexity, reason = "the Python side gives the members names")]
 pub(crate) fn find_suite(

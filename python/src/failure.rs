@@ -1,12 +1,13 @@
-//! Expected errors as Python exceptions: `vertifleet.Error`, with the code and the hint that the `vertifleet` program
-//! prints.
+//! Expected errors as Python exceptions: `vertifleet.Error`, with the code and the hint that the
+//! `vertifleet` program prints.
 
 use pyo3::prelude::{PyAnyMethods, PyErr, Python};
 use pyo3::sync::PyOnceLock;
 use pyo3::{Py, types::PyType};
 use vertifleet_core::{Code, Coded};
 
-/// An expected error before it becomes a Python exception. It can be made on any thread, without the GIL.
+/// An expected error before it becomes a Python exception. It can be made on any thread, without
+/// the GIL.
 #[derive(Debug)]
 pub(crate) struct Failure {
     code: Code,
@@ -42,8 +43,8 @@ impl From<Failure> for PyErr {
     }
 }
 
-/// The class of expected errors. It is written in Python because the limited API does not allow subclasses of
-/// `Exception` in Rust.
+/// The class of expected errors. It is written in Python because the limited API does not allow
+/// subclasses of `Exception` in Rust.
 fn class(py: Python<'_>) -> Result<&pyo3::Bound<'_, PyType>, PyErr> {
     static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
     let class = CLASS.get_or_try_init(py, || {

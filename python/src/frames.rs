@@ -1,4 +1,5 @@
-//! Tables for Python: a dict of numpy arrays, and pandas and polars frames if these libraries are installed.
+//! Tables for Python: a dict of numpy arrays, and pandas and polars frames if these libraries are
+//! installed.
 
 use numpy::ndarray::IntoDimension;
 use numpy::{Element, PyArray1, PyArrayMethods};
@@ -17,8 +18,8 @@ impl<'py> Columns<'py> {
         Self(PyDict::new(py))
     }
 
-    /// A column of whole numbers. They are signed, so that the difference of two columns can be negative and does not
-    /// wrap around.
+    /// A column of whole numbers. They are signed, so that the difference of two columns can be
+    /// negative and does not wrap around.
     pub(crate) fn counts<T: TryInto<i64>>(
         &self,
         name: &str,
@@ -83,8 +84,8 @@ pub(crate) fn read_only<T>(array: Bound<'_, T>) -> PyResult<Bound<'_, PyAny>> {
     Ok(array)
 }
 
-/// The columns as a `library.DataFrame`. If the library is not installed, Python's own `ModuleNotFoundError` says what
-/// to install.
+/// The columns as a `library.DataFrame`. If the library is not installed, Python's own
+/// `ModuleNotFoundError` says what to install.
 pub(crate) fn frame<'py>(
     columns: &Bound<'py, PyDict>,
     library: &str,
@@ -111,14 +112,15 @@ pub(crate) fn loads<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyA
     py.import("json")?.call_method1("loads", (json,))
 }
 
-/// The members of a mapping as JSON values, in the order of the mapping. `name` is the name of the mapping in messages.
+/// The members of a mapping as JSON values, in the order of the mapping. `name` is the name of the
+/// mapping in messages.
 pub(crate) fn members(
     name: &str,
     mapping: &Bound<'_, PyMapping>,
 ) -> PyResult<Vec<(String, serde_json::Value)>> {
     let py = mapping.py();
-    // `json` does not accept the number types of numpy. Their `item` method returns a Python number, which it does
-    // accept.
+    // `json` does not accept the number types of numpy. Their `item` method returns a Python
+    // number, which it does accept.
     let item = py.import("operator")?.call_method1("methodcaller", ("item",))?;
     let named = [("default", item)].into_py_dict(py)?;
     let refused = |rule: String| Failure::argument(format!("{name}: {rule}"));

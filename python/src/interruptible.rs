@@ -27,7 +27,8 @@ pub(crate) fn threads(asked: Option<WholeNumber>) -> Result<usize, Failure> {
     }
 }
 
-/// A pool of threads. If the machine refuses to start more threads, the pool consists of the calling thread alone.
+/// A pool of threads. If the machine refuses to start more threads, the pool consists of the
+/// calling thread alone.
 pub(crate) fn pool(threads: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(threads).build().unwrap_or_else(|_| {
         let of_this_thread = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
@@ -35,12 +36,14 @@ pub(crate) fn pool(threads: usize) -> ThreadPool {
     })
 }
 
-/// Does `work` on `threads` threads of its own, while the calling thread waits for Ctrl-C. Ctrl-C raises the flag that
-/// `work` gets. The call still returns only when the work has ended, because the work may call a Python function of the
-/// caller, which must not happen after Python has shut down. A second Ctrl-C returns without waiting.
+/// Does `work` on `threads` new threads, while the calling thread waits for Ctrl-C. Ctrl-C raises
+/// the flag that `work` gets. The call still returns only when the work has ended, because the work
+/// may call a Python function of the caller, which must not happen after Python has shut down. A
+/// second Ctrl-C returns without waiting.
 ///
-/// The threads are started for each call and end with it. If they were kept, a process that is forked later, for
-/// example by Python's `multiprocessing`, would not have them, and would wait for them for ever.
+/// The threads are started for each call and end with it. If they were kept, a process that is
+/// forked later, for example by Python's `multiprocessing`, would not have them, and would wait for
+/// them for ever.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     threads: usize,

@@ -8,7 +8,8 @@ use vertifleet_study::{KeptComparison, KeptComparisons};
 use crate::comparison::Comparison;
 use crate::failure::Failure;
 
-/// A part of a study: the number of its network, the seed of its first day, its number of days, and the comparison.
+/// A part of a study: the number of its network, the seed of its first day, its number of days, and
+/// the comparison.
 type Part = (usize, u64, usize, Comparison);
 
 /// A file that finished comparisons are added to.
@@ -17,9 +18,9 @@ pub(crate) struct KeptParts(KeptComparisons);
 
 #[pymethods]
 impl KeptParts {
-    /// Opens the file at `path`, or begins it, and returns it with the parts that it holds: the number of the network, the
-    /// seed of the first day, the number of days, and the comparison. `depends_on` is JSON that names everything that the
-    /// results depend on.
+    /// Opens the file at `path`, or begins it, and returns it with the parts that it holds: the
+    /// number of the network, the seed of the first day, the number of days, and the comparison.
+    /// `depends_on` is JSON that names everything that the results depend on.
     #[staticmethod]
     fn open(py: Python<'_>, path: PathBuf, depends_on: &str) -> PyResult<(Self, Vec<Part>)> {
         let depends_on = serde_json::from_str(depends_on)

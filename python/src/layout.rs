@@ -18,7 +18,8 @@ pub(crate) struct Layout {
 
 #[pymethods]
 impl Layout {
-    /// Lays parts out by their names, for days of up to these numbers of vertiports, aircraft, types and periods.
+    /// Lays parts out by their names, for days of up to these numbers of vertiports, aircraft,
+    /// types and periods.
     #[new]
     fn new(parts: Vec<String>, sizes: SizesTuple) -> Result<Self, Failure> {
         let part = |name: &String| {
@@ -56,7 +57,8 @@ impl Layout {
         self.layout.width()
     }
 
-    /// Whether all parts show the present alone, and nothing that is known or expected of the future.
+    /// Whether all parts show the present alone, and nothing that is known or expected of the
+    /// future.
     #[getter]
     fn shows_present_only(&self) -> bool {
         !self.layout.parts().iter().any(|placed| placed.part.is_ahead())

@@ -1,8 +1,9 @@
-//! `vertifleet._native`: the Python package's interface to the crates. It only converts and forwards; every rule is in
-//! the crates.
+//! `vertifleet._native`: the Python package's interface to the crates. It only converts and
+//! forwards; every rule is in the crates.
 //!
-//! Calls that may take long release the GIL for Python's other threads, and check for Ctrl-C (`interruptible.rs`).
-//! Arrays are filled in place. The docstrings come from the comments here, and the types from `vertifleet/_native.pyi`.
+//! Calls that may take long release the GIL for Python's other threads, and check for Ctrl-C
+//! (`interruptible.rs`). Arrays are filled in place. The docstrings come from the comments here,
+//! and the types from `vertifleet/_native.pyi`.
 
 #![expect(
     clippy::needless_pass_by_value,

@@ -15,8 +15,8 @@ use crate::failure::Failure;
 use crate::frames::{members, plain, table};
 use crate::pickle::{Reduced, reduced};
 
-/// The weights of a learned policy: `gcaps`, `mlp` or `mlp-full` for one number of vertiports, or `gcaps-x` or
-/// `gcaps-full` for any network. A `Model` never changes.
+/// The weights of a learned policy: `gcaps`, `mlp` or `mlp-full` for one number of vertiports, or
+/// `gcaps-x` or `gcaps-full` for any network. A `Model` never changes.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Model {
     pub(crate) model: Arc<vertifleet_learn::Model>,
@@ -30,7 +30,8 @@ impl Model {
         Ok(Self { model: Arc::new(vertifleet_learn::Model::read(&path)?) })
     }
 
-    /// Reads the weights from the bytes of a weight file. `origin` is the name of the file in messages.
+    /// Reads the weights from the bytes of a weight file. `origin` is the name of the file in
+    /// messages.
     #[staticmethod]
     #[pyo3(signature = (bytes, origin = "<bytes>"))]
     fn from_bytes(bytes: &[u8], origin: &str) -> Result<Self, Failure> {
@@ -44,8 +45,8 @@ impl Model {
         Ok(Self { model: Arc::new(shipped(policy, network)?.model) })
     }
 
-    /// Writes the weights as a weight file. An existing file that is read-only or not a weight file is replaced only
-    /// with `force`.
+    /// Writes the weights as a weight file. An existing file that is read-only or not a weight file
+    /// is replaced only with `force`.
     #[pyo3(signature = (path, *, force = false))]
     fn write(&self, path: PathBuf, force: bool) -> Result<(), Failure> {
         check_output(&path, &kinds::WEIGHTS, force)?;
@@ -57,7 +58,8 @@ impl Model {
         PyBytes::new(py, &self.model.to_bytes())
     }
 
-    /// SHA-256 of the weight file in hexadecimal digits, which identifies the weights in result files.
+    /// SHA-256 of the weight file in hexadecimal digits, which identifies the weights in result
+    /// files.
     #[getter]
     fn sha256(&self) -> String {
         self.model.sha256()
@@ -69,7 +71,8 @@ impl Model {
         self.model.kind()
     }
 
-    /// The header of the weight file, as a dict. It says what the weights were trained for and where they came from.
+    /// The header of the weight file, as a dict. It says what the weights were trained for and
+    /// where they came from.
     #[getter]
     fn header<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         plain(py, self.model.header())
@@ -87,11 +90,12 @@ impl Model {
         Ok(tensors)
     }
 
-    /// The logits [B, N], minus infinity where the mask is 0, and the values [B] of a batch of decisions, as the policy
-    /// in Rust computes them. The inputs `nodes` [B, N * F] or [B, N, F], `aircraft` [B, G], `mask` [B, N] and `clock`
-    /// [B] or [B, 1], which is the share of the day that is left, are the same as in the observations of the vector
-    /// environment. `edges` [B, N, N] or [B, N * N] are the weights of edges, if the weights' graph has observed ones.
-    /// For gcaps-x this is the output of the layers alone, without the day's prices.
+    /// The logits [B, N], minus infinity where the mask is 0, and the values [B] of a batch of
+    /// decisions, as the policy in Rust computes them. The inputs `nodes` [B, N * F] or [B, N, F],
+    /// `aircraft` [B, G], `mask` [B, N] and `clock` [B] or [B, 1], which is the share of the day
+    /// that is left, are the same as in the observations of the vector environment. `edges` [B, N,
+    /// N] or [B, N * N] are the weights of edges, if the weights' graph has observed ones. For
+    /// gcaps-x this is the output of the layers alone, without the day's prices.
     #[pyo3(signature = (nodes, aircraft, mask, clock, edges = None))]
     fn forward<'py>(
         &self,
@@ -176,8 +180,8 @@ fn edges_of(
     }
 }
 
-/// The entries of an array of any number type, row by row. The array may have more or fewer than two dimensions if it
-/// has the same rows.
+/// The entries of an array of any number type, row by row. The array may have more or fewer than
+/// two dimensions if it has the same rows.
 fn entries(
     name: &str,
     array: &Bound<'_, PyAny>,
@@ -200,8 +204,9 @@ fn pass(net: &nn::NeuralNetwork, weights: &nn::Weights, inputs: Inputs<'_>) -> n
     space
 }
 
-/// The settings of a training preset of `gcaps` and `mlp` as a dict: `default`, `paper` (Table 2), `imitation` or
-/// `evolution`. Settings can be changed: `settings("paper", n_envs=16)`. Changed settings are checked in the same way as by `vertifleet train --set`.
+/// The settings of a training preset of `gcaps` and `mlp` as a dict: `default`, `paper` (Table 2),
+/// `imitation` or `evolution`. Settings can be changed: `settings("paper", n_envs=16)`. Changed
+/// settings are checked in the same way as by `vertifleet train --set`.
 #[pyfunction]
 #[pyo3(signature = (preset = "default", **changes))]
 pub(crate) fn settings<'py>(
@@ -229,7 +234,8 @@ pub(crate) fn borrowed(changes: &[(String, String)]) -> impl Iterator<Item = (&s
     changes.iter().map(|(name, value)| (name.as_str(), value.as_str()))
 }
 
-/// Turns a float without a fraction into a whole number, because users of Python write `1e6` for a million.
+/// Turns a float without a fraction into a whole number, because users of Python write `1e6` for a
+/// million.
 fn whole(value: serde_json::Value) -> serde_json::Value {
     match value.as_f64() {
         Some(number) if number.fract() == 0.0 && number.abs() < 1e15 =>

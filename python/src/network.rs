@@ -17,9 +17,10 @@ use crate::whole_number::WholeNumber;
 
 /// A network: vertiports, fleet, tariffs, and the models that days are drawn from.
 ///
-/// `Network("paper")` is the shipped network with that name (`Network.shipped` lists the names), `Network("random:7")`
-/// is the random network with that number, and `Network("mine.toml")` is read from the network file at that path. A
-/// `Network` never changes. A pickle of it contains the whole network.
+/// `Network("paper")` is the shipped network with that name (`Network.shipped` lists the names),
+/// `Network("random:7")` is the random network with that number, and `Network("mine.toml")` is read
+/// from the network file at that path. A `Network` never changes. A pickle of it contains the whole
+/// network.
 #[pyclass(frozen, from_py_object, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Network {
@@ -38,7 +39,8 @@ impl Network {
         Self::told(py, network, source, &mut HashSet::new())
     }
 
-    /// Reads a network from the text of a network file. `origin` is the name of the file in messages.
+    /// Reads a network from the text of a network file. `origin` is the name of the file in
+    /// messages.
     #[staticmethod]
     #[pyo3(signature = (text, origin = "<text>"))]
     fn from_toml(py: Python<'_>, text: &str, origin: &str) -> PyResult<Self> {
@@ -53,18 +55,20 @@ impl Network {
         core::Network::shipped_names().collect()
     }
 
-    /// The same network with some members of its network file changed: `network.changed({"fleet.0.count": 52,
-    /// "vertiports.V3.stands": 8})`.
+    /// The same network with some members of its network file changed:
+    /// `network.changed({"fleet.0.count": 52, "vertiports.V3.stands": 8})`.
     ///
-    /// A path names members from the outside in. An entry of a list is named by its `id` or by its position, counted
-    /// from 0, and `*` stands for all entries. The result is checked like any network file.
+    /// A path names members from the outside in. An entry of a list is named by its `id` or by its
+    /// position, counted from 0, and `*` stands for all entries. The result is checked like any
+    /// network file.
     fn changed(&self, changes: &Bound<'_, PyMapping>) -> PyResult<Self> {
         let asked = members("changes", changes)?;
         let network = self.network.changed(asked.iter().map(|(path, value)| (path, value)));
         self.changed_with_warnings(changes, network.map_err(Failure::from)?, &mut HashSet::new())
     }
 
-    /// The Python expression that made the network, for people to read. A report contains it in its command.
+    /// The Python expression that made the network, for people to read. A report contains it in its
+    /// command.
     #[getter]
     fn source(&self) -> &str {
         &self.source
@@ -94,13 +98,15 @@ impl Network {
         self.network.fleet_size()
     }
 
-    /// The numbers that the features of learned policies are divided by, as in the headers of weight files.
+    /// The numbers that the features of learned policies are divided by, as in the headers of
+    /// weight files.
     #[getter]
     fn feature_scales<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         plain(py, &self.network.feature_scales())
     }
 
-    /// Mean demand, passengers [periods, vertiports, vertiports]. The demand of the drawn days scatters around it.
+    /// Mean demand, passengers [periods, vertiports, vertiports]. The demand of the drawn days
+    /// scatters around it.
     #[getter]
     fn mean_demand<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let means = self.network.mean_demand();
@@ -114,8 +120,8 @@ impl Network {
 
     /// Draws the day of a seed. The same seed gives the same day everywhere.
     ///
-    /// Days for different purposes ("comparison", "validation", "training") are never the same, so that no policy is
-    /// judged on a day that it learned from.
+    /// Days for different purposes ("comparison", "validation", "training") are never the same, so
+    /// that no policy is judged on a day that it learned from.
     #[pyo3(signature = (seed, purpose = "comparison"))]
     fn draw(&self, seed: WholeNumber, purpose: &str) -> Result<Scenario, Failure> {
         let seed = seed.of("seed")?;
@@ -163,8 +169,8 @@ impl Network {
 }
 
 impl Network {
-    /// Wraps a network that has just been read, and emits a Python warning for everything that looks wrong with it and is not
-    /// `said` yet.
+    /// Wraps a network that has just been read, and emits a Python warning for everything that
+    /// looks wrong with it and is not `said` yet.
     fn told(
         py: Python<'_>,
         network: core::Network,
@@ -179,7 +185,8 @@ impl Network {
         Ok(Self::of(network, source))
     }
 
-    /// This network with these changes. Python hears of those of its warnings that are not `said` yet.
+    /// This network with these changes. Python hears of those of its warnings that are not `said`
+    /// yet.
     pub(crate) fn changed_with_warnings(
         &self,
         changes: &Bound<'_, PyAny>,
@@ -194,8 +201,8 @@ impl Network {
         Self { network: Arc::new(network), source }
     }
 
-    /// Checks that a day has as many vertiports as this network, which is the number that the observation arrays have
-    /// room for.
+    /// Checks that a day has as many vertiports as this network, which is the number that the
+    /// observation arrays have room for.
     pub(crate) fn check_fits(&self, day: &core::Scenario) -> Result<(), Failure> {
         let (expected, found) = (self.network.vertiports().len(), day.vertiports.len());
         if expected == found {

@@ -1,4 +1,4 @@
-//! One observation in arrays of its own.
+//! One observation in separate arrays.
 
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;

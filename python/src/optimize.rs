@@ -1,4 +1,5 @@
-//! `bound` and `plan`: an upper bound on what a known day can earn, and a schedule that comes close to it.
+//! `bound` and `plan`: an upper bound on what a known day can earn, and a schedule that comes close
+//! to it.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -46,28 +47,29 @@ impl Bound {
         self.upper_bound_usd
     }
 
-    /// Whether the search for the bound came to its end. If not, a longer search may find a lower bound.
+    /// Whether the search for the bound came to its end. If not, a longer search may find a lower
+    /// bound.
     #[getter]
     fn is_final(&self) -> bool {
         self.is_final
     }
 
-    /// Minutes for which the prices of the bound stay the same. This may be more than requested, if longer slices prove
-    /// a lower bound.
+    /// Minutes for which the prices of the bound stay the same. This may be more than requested, if
+    /// longer slices prove a lower bound.
     #[getter]
     fn step(&self) -> u32 {
         self.step
     }
 
-    /// Shadow price of one more stand all day, dollars [vertiports]. With one more stand, no schedule earns more than
-    /// the bound plus this price.
+    /// Shadow price of one more stand all day, dollars [vertiports]. With one more stand, no
+    /// schedule earns more than the bound plus this price.
     #[getter]
     fn stand_shadow_price_usd<'py>(&self, py: Python<'py>) -> pyo3::Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, &self.stand_shadow_price_usd)
     }
 
-    /// Shadow price of one more passenger, dollars [periods, vertiports, vertiports]. With one more passenger, no
-    /// schedule earns more than the bound plus this price.
+    /// Shadow price of one more passenger, dollars [periods, vertiports, vertiports]. With one more
+    /// passenger, no schedule earns more than the bound plus this price.
     #[getter]
     fn passenger_shadow_price_usd<'py>(
         &self,
@@ -77,8 +79,8 @@ impl Bound {
         table(py, self.passenger_shadow_price_usd.iter().copied(), [periods, size, size])
     }
 
-    /// The gap: by how much a profit is below the bound, as a share of the bound. Both are taken before the costs of
-    /// aircraft and sites, which no decision changes.
+    /// The gap: by how much a profit is below the bound, as a share of the bound. Both are taken
+    /// before the costs of aircraft and sites, which no decision changes.
     fn gap(&self, profit_usd: f64) -> f64 {
         let fixed_usd = self.scenario.fixed_cost_usd();
         exact::gap(self.upper_bound_usd + fixed_usd, profit_usd + fixed_usd)
@@ -158,8 +160,8 @@ impl Bound {
     }
 }
 
-/// Proves an upper bound on what any schedule of a day earns. `step` is the length of the bound's slices in minutes, 1
-/// to 60. Shorter slices never give a looser bound, but take longer.
+/// Proves an upper bound on what any schedule of a day earns. `step` is the length of the bound's
+/// slices in minutes, 1 to 60. Shorter slices never give a looser bound, but take longer.
 #[pyfunction]
 #[pyo3(signature = (scenario, *, step = WholeNumber::from(5)), text_signature = "(scenario, *, step=5)")]
 pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: WholeNumber) -> PyResult<Bound> {
@@ -216,15 +218,15 @@ impl Plan {
         self.steps
     }
 
-    /// The upper bound of the day, or `None` if the day is too large for a bound or the time was too short to prove
-    /// one.
+    /// The upper bound of the day, or `None` if the day is too large for a bound or the time was
+    /// too short to prove one.
     #[getter]
     fn bound(&self) -> Option<Bound> {
         self.bound.clone()
     }
 
-    /// By how much the plan's profit is below the bound, as a share of the bound. The best schedule is at most this
-    /// much better.
+    /// By how much the plan's profit is below the bound, as a share of the bound. The best schedule
+    /// is at most this much better.
     #[getter]
     fn gap(&self) -> Option<f64> {
         self.bound.as_ref().map(|bound| bound.gap(self.profit_usd))
@@ -270,12 +272,13 @@ impl Plan {
     }
 }
 
-/// Searches for a good schedule of a known day, and proves an upper bound of the day at the same time.
+/// Searches for a good schedule of a known day, and proves an upper bound of the day at the same
+/// time.
 ///
-/// The search takes `time_limit` seconds, 60 by default, or `steps` steps in each search if `steps` is given; the plan
-/// then depends only on the day, `seed`, `steps` and `threads`. It ends early when the gap to the bound is at most
-/// `gap`, for example 0.03. The bound is the best one that is proven when the time is over. With `steps`, the call
-/// waits for the whole proof.
+/// The search takes `time_limit` seconds, 60 by default, or `steps` steps in each search if `steps`
+/// is given; the plan then depends only on the day, `seed`, `steps` and `threads`. It ends early
+/// when the gap to the bound is at most `gap`, for example 0.03. The bound is the best one that is
+/// proven when the time is over. With `steps`, the call waits for the whole proof.
 #[pyfunction]
 #[pyo3(
     signature = (scenario, *, time_limit = None, steps = None, gap = None, seed = WholeNumber::from(0), threads = None),
@@ -298,8 +301,7 @@ pub(crate) fn plan(
             (Budget::Time(Duration::from_secs_f64(limit_s)), "% of the time")
         }
         (Some(_), Some(_)) => {
-            let message =
-                "a search ends after time_limit seconds or after so many steps: give one of them";
+            let message = "a search ends after time_limit seconds or after a number of steps: give one of them";
             return Err(Failure::argument(message.to_owned()).into());
         }
     };

@@ -1,4 +1,5 @@
-//! Policies that call a Python object: about one decision at a time, or about the decisions of many days at once.
+//! Policies that call a Python object: about one decision at a time, or about the decisions of many
+//! days at once.
 
 use std::sync::{Arc, Mutex};
 
@@ -34,7 +35,8 @@ impl Caller {
         PolicyError::Stopped
     }
 
-    /// The choice that an action stands for. As in an environment, an action that is not feasible holds.
+    /// The choice that an action stands for. As in an environment, an action that is not feasible
+    /// holds.
     fn feasible(&self, decision: &Decision, view: View<'_>, action: WholeNumber) -> VertiportIx {
         let feasible = view.feasible(decision);
         let asked = action.of::<u16>("what a policy returns").ok().map(VertiportIx);
@@ -45,7 +47,7 @@ impl Caller {
     }
 }
 
-/// A policy that asks a function from a view to an action, made anew when a day begins.
+/// A policy that calls a function from a view to an action, which is made again when a day begins.
 pub(crate) struct OwnPolicy {
     caller: Caller,
     /// The day that is being played.
@@ -133,7 +135,7 @@ impl OwnBatchPolicy {
         }
     }
 
-    /// What observes a day; it is made anew when the day begins.
+    /// What observes a day; it is made again when a day begins.
     fn observer(&mut self, day: DayKey, begins: bool) -> Arc<Mutex<Observer>> {
         if begins {
             self.observers.retain(|(known, _)| *known != day);

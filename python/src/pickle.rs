@@ -1,4 +1,5 @@
-//! Pickling: an object is pickled as a function that restores it, and the arguments of that function.
+//! Pickling: an object is pickled as a function that restores it, and the arguments of that
+//! function.
 
 use pyo3::prelude::*;
 use pyo3::type_object::PyTypeInfo;

@@ -32,7 +32,8 @@ impl Picture {
         PyBytes::new(py, &py.detach(|| picture::png(&self.text)))
     }
 
-    /// Writes the picture into a file, whose name ends in `.svg` or `.png`. An existing file is replaced.
+    /// Writes the picture into a file, whose name ends in `.svg` or `.png`. An existing file is
+    /// replaced.
     fn save(&self, py: Python<'_>, path: PathBuf) -> Result<(), Failure> {
         py.detach(|| {
             let ends_in =
@@ -59,7 +60,8 @@ impl Picture {
     }
 }
 
-/// A day in progress, as it was brought here by these choices, as a frame: [height, width, 3], 0 to 255.
+/// A day in progress, as it was brought here by these choices, as a frame: [height, width, 3], 0 to
+/// 255.
 pub(crate) fn frame<'py>(
     py: Python<'py>,
     day: &Day,
@@ -83,8 +85,8 @@ fn deciding(day: &Day) -> Option<VertiportIx> {
     (!day.is_over()).then(|| day.decision().at)
 }
 
-/// The fleet as the choices have brought it here. Playing them again takes less time than painting, and an environment
-/// that is never rendered keeps no trace.
+/// The fleet as the choices have brought it here. Playing them again takes less time than painting,
+/// and an environment that is never rendered keeps no trace.
 fn moment(day: &Day, choices: &[u16]) -> Moment {
     let mut simulation = Simulation::new(Arc::clone(day.simulation().scenario()));
     let mut rows: Vec<TraceRow> = Vec::with_capacity(choices.len());

@@ -34,7 +34,8 @@ impl Played {
         self.totals.profit_usd
     }
 
-    /// The results of the day, as `vertifleet simulate --json` prints them, in dollars, kWh and counts.
+    /// The results of the day, as `vertifleet simulate --json` prints them, in dollars, kWh and
+    /// counts.
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         plain(py, &self.totals)
@@ -86,10 +87,11 @@ pub(crate) enum Player<'py> {
     Function(Bound<'py, PyAny>),
 }
 
-/// Plays a day to its end with a policy. The policy is one of the following: a name as in `vertifleet simulate`, with
-/// `seed` for the random policy and `model` for a weight file or a `Model` to use instead of the shipped weights; a
-/// `Model`; a `Trace` of this day, which is replayed; or a function as for `compare`, which sees the day as the
-/// environment of `network` shows it.
+/// Plays a day to its end with a policy. The policy is one of the following: a name as in
+/// `vertifleet simulate`, with `seed` for the random policy and `model` for a weight file or a
+/// `Model` to use instead of the shipped weights; a `Model`; a `Trace` of this day, which is
+/// replayed; or a function as for `compare`, which sees the day as the environment of `network`
+/// shows it.
 #[pyfunction]
 #[pyo3(
     signature = (scenario, policy = Player::Named("greedy".to_owned()), *, seed = WholeNumber::from(0), model = None, network = None),

@@ -12,10 +12,11 @@ use crate::policy_source::Weights;
 use crate::view::View;
 use crate::whole_number::WholeNumber;
 
-/// One of the program's policies, to be asked about any decision: `vertifleet.policy("rolling").values(env.view)`.
+/// One of the program's policies, to be asked about any decision:
+/// `vertifleet.policy("rolling").values(env.view)`.
 ///
-/// Asked about the decisions of a day in their order, it remembers the day's bid prices as it does when it plays, so it
-/// makes the choices that `vertifleet simulate` makes.
+/// Asked about the decisions of a day in their order, it remembers the day's bid prices as it does
+/// when it plays, so it makes the choices that `vertifleet simulate` makes.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Policy {
     name: String,
@@ -48,7 +49,8 @@ impl Policy {
         Ok(outcome.map_err(|error| self.stuck(&error))?.0)
     }
 
-    /// What it compares choices by, the higher the better; NaN for a choice that it does not consider [N].
+    /// What it compares choices by, the higher the better; NaN for a choice that it does not
+    /// consider [N].
     fn values<'py>(&self, py: Python<'py>, view: &View) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let array = PyArray1::zeros(py, view.scene().sizes().vertiports, false);
         let mut guard = array.readwrite();
@@ -74,8 +76,9 @@ impl Policy {
     }
 }
 
-/// Finds a policy by its name, as `simulate` does. `network` is the name of the network whose shipped weights are meant,
-/// `seed` that of the random policy, and `model` a weight file or a `Model`.
+/// Finds a policy by its name, as `simulate` does. `network` is the name of the network whose
+/// shipped weights are meant, `seed` that of the random policy, and `model` a weight file or a
+/// `Model`.
 #[pyfunction]
 #[pyo3(signature = (name, network, seed, model))]
 pub(crate) fn find_policy(

@@ -1,4 +1,5 @@
-//! The values in Python that the name of a policy may refer to: a weight file, a model, or a function of the caller.
+//! The values in Python that the name of a policy may refer to: a weight file, a model, or a
+//! function of the caller.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -49,7 +50,7 @@ impl From<Weights<'_>> for PolicySource {
     }
 }
 
-/// What calls of the caller's own Python code leave behind, on whatever threads they were made.
+/// What calls of the caller's own Python code leave behind, on whichever threads they were made.
 #[derive(Clone, Default)]
 pub(crate) struct OwnCalls(Arc<Mutex<Left>>);
 
@@ -76,7 +77,8 @@ impl OwnCalls {
         self.lock().raised.take()
     }
 
-    /// The outcome of work that made these calls: an exception that one of them raised goes before an error.
+    /// The outcome of work that made these calls: an exception that one of them raised goes before
+    /// an error.
     pub(crate) fn answered<T>(&self, outcome: Result<T, Error>) -> PyResult<T> {
         match self.raised() {
             Some(error) => Err(error),
@@ -99,8 +101,8 @@ impl OwnCalls {
     }
 }
 
-/// Converts a Python value into a policy source: weights, or a policy of the caller ([`of_own`]), which sees days as
-/// days of `network`.
+/// Converts a Python value into a policy source: weights, or a policy of the caller ([`of_own`]),
+/// which sees days as days of `network`.
 pub(crate) fn policy_source(
     value: &Bound<'_, PyAny>,
     name: &str,
@@ -113,8 +115,9 @@ pub(crate) fn policy_source(
     Ok(PolicySource::Own(of_own(value, name, network, calls)?))
 }
 
-/// A policy from a Python object: a function from an observation to an action, or an object that chooses. The Python
-/// side of the package says which objects these are, and how views are shown to them.
+/// A policy from a Python object: a function from an observation to an action, or an object that
+/// chooses. The Python side of the package says which objects these are, and how views are shown to
+/// them.
 pub(crate) fn of_own(
     value: &Bound<'_, PyAny>,
     name: &str,

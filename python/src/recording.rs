@@ -1,4 +1,5 @@
-//! `record`: plays days with a policy, and keeps every decision with its observation, for learning from it.
+//! `record`: plays days with a policy, and keeps every decision with its observation, for learning
+//! from it.
 
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -29,10 +30,10 @@ struct Recorded {
     values: Vec<f64>,
 }
 
-/// Plays the days with these numbers, and returns a dict: `days` (names), `decisions` (number of each day), `rows` [D,
-/// W], `mask` [D, N], `action` [D], `reward` [D] (each flight's share of the day's reward), and `values` [D, N] if
-/// they are asked for. `policy` is a name, or with `source` the name of a model or of a policy of the caller, which sees
-/// the days as days of `network`.
+/// Plays the days with these numbers, and returns a dict: `days` (names), `decisions` (number of
+/// each day), `rows` [D, W], `mask` [D, N], `action` [D], `reward` [D] (each flight's share of the
+/// day's reward), and `values` [D, N] if they are asked for. `policy` is a name, or with `source`
+/// the name of a model or of a policy of the caller, which sees the days as days of `network`.
 #[pyfunction]
 #[pyo3(signature = (days, layout, policy, source, network, *, first, number, values, seed, threads))]
 #[expect(clippy::too_many_arguments, reason = "the Python side gives them names and defaults")]
@@ -66,7 +67,7 @@ pub(crate) fn record<'py>(
     let (width, vertiports) = (layout.layout.width(), world.vertiports());
     let name = policy.to_owned();
     let outcome = interruptible(py, interruptible::threads(threads)?, move |stop| {
-        // Each day has a policy of its own, so that nothing that one remembers goes from day to day.
+        // Each day has a separate policy, so that nothing is remembered from one day to the next.
         let play = |number| {
             let mut policy = resolved.build();
             recorded(&world, (&name, &resolved), policy.as_mut(), number, values, stop)

@@ -12,9 +12,10 @@ use crate::frames::{count, read_only, table};
 use crate::pickle::{Reduced, reduced};
 use crate::picture::Picture;
 
-/// One operating day with all that happens to the fleet from outside: network, fleet, demand, tariffs and disturbances.
-/// A `Scenario` never changes, and neither do its arrays. To get a different day, draw it from a changed network, or
-/// change the text of this day (`to_json`, `from_json`).
+/// One operating day with all that happens to the fleet from outside: network, fleet, demand,
+/// tariffs and disturbances. A `Scenario` never changes, and neither do its arrays. To get a
+/// different day, draw it from a changed network, or change the text of this day (`to_json`,
+/// `from_json`).
 #[pyclass(frozen, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Scenario {
@@ -36,8 +37,8 @@ impl Scenario {
         Ok(Self::of(core::Scenario::from_json(text.as_bytes(), origin)?))
     }
 
-    /// Writes the day as a scenario file. An existing file that is read-only or not a scenario file is replaced only
-    /// with `force`.
+    /// Writes the day as a scenario file. An existing file that is read-only or not a scenario file
+    /// is replaced only with `force`.
     #[pyo3(signature = (path, *, force = false))]
     fn write(&self, path: PathBuf, force: bool) -> Result<(), Failure> {
         core::check_output(&path, &core::Scenario::FILE, force)?;
@@ -64,8 +65,8 @@ impl Scenario {
         &self.scenario.name
     }
 
-    /// The seed that the day was drawn with. The seeds of training, validation and comparison days have separate
-    /// ranges.
+    /// The seed that the day was drawn with. The seeds of training, validation and comparison days
+    /// have separate ranges.
     #[getter]
     fn seed(&self) -> u64 {
         self.scenario.seed
@@ -126,7 +127,8 @@ impl Scenario {
         read_only(PyArray1::from_iter(py, starts))
     }
 
-    /// Demand, passengers [periods, vertiports, vertiports]. Where it differs from the forecast, no policy sees it.
+    /// Demand, passengers [periods, vertiports, vertiports]. Where it differs from the forecast, no
+    /// policy sees it.
     #[getter]
     fn demand<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (periods, size) = self.shape();
@@ -143,7 +145,8 @@ impl Scenario {
         read_only(table(py, fares.copied(), [periods, size, size])?)
     }
 
-    /// Passenger cost, which is what carrying a passenger costs, dollars per passenger [vertiports, vertiports].
+    /// Passenger cost, which is what carrying a passenger costs, dollars per passenger [vertiports,
+    /// vertiports].
     #[getter]
     fn passenger_cost_usd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let size = self.scenario.vertiports.len();
@@ -154,8 +157,8 @@ impl Scenario {
         )?)
     }
 
-    /// Flight cost, which is what a flight costs with or without passengers, energy excluded, dollars [vertiports,
-    /// vertiports].
+    /// Flight cost, which is what a flight costs with or without passengers, energy excluded,
+    /// dollars [vertiports, vertiports].
     #[getter]
     fn flight_cost_usd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let size = self.scenario.vertiports.len();
@@ -174,7 +177,8 @@ impl Scenario {
         read_only(PyArray1::from_slice(py, &self.scenario.energy_price_usd))
     }
 
-    /// Potential: the revenue if every passenger flew, dollars. It is the denominator of the reward.
+    /// Potential: the revenue if every passenger flew, dollars. It is the denominator of the
+    /// reward.
     #[getter]
     fn potential_usd(&self) -> f64 {
         self.scenario.potential_usd()

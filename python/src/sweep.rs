@@ -26,9 +26,9 @@ pub(crate) enum Varied {
     LeftOut(String),
 }
 
-/// The cells of a sweep: what is changed in each, and the network with that change, or the reason why there is none. The
-/// values of a path are a list, or a text as the program's `--vary` takes it. With `latin`, so many cells are drawn with
-/// `seed`; otherwise every combination is one.
+/// The cells of a sweep: what is changed in each, and the network with that change, or the reason
+/// why there is none. The values of a path are a list, or a text as the program's `--vary` takes
+/// it. With `latin`, this many cells are drawn with `seed`; otherwise every combination is one.
 #[pyfunction]
 #[pyo3(signature = (network, changes, *, latin, seed))]
 pub(crate) fn sweep_cells<'py>(
@@ -80,9 +80,9 @@ struct Varying {
     values: Vec<Vec<Value>>,
 }
 
-/// Writes tables, figures and a report page of a sweep into a folder, and returns the path of the page. `design` is JSON:
-/// the `paths` that were varied, and `values` with a list for each of the `comparisons`, which are None where the cell was
-/// left out.
+/// Writes tables, figures and a report page of a sweep into a folder, and returns the path of the
+/// page. `design` is JSON: the `paths` that were varied, and `values` with a list for each of the
+/// `comparisons`, which are None where the cell was left out.
 #[pyfunction]
 #[pyo3(signature = (network, design, comparisons, folder, *, force, command))]
 pub(crate) fn sweep_report(

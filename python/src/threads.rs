@@ -16,7 +16,8 @@ pub(crate) struct Threads {
     pool: Option<Pool>,
 }
 
-/// The threads, and the id of the process that they belong to. A process that is forked from it does not have them.
+/// The threads, and the id of the process that they belong to. A process that is forked from it
+/// does not have them.
 struct Pool {
     threads: Option<ThreadPool>,
     process: u32,
@@ -24,8 +25,8 @@ struct Pool {
     calls: Arc<AtomicU64>,
 }
 
-/// How long threads busy-wait for the next call. It is just longer than a policy of a few array operations takes,
-/// because busy-waiting keeps the cores occupied.
+/// How long threads busy-wait for the next call. It is just longer than a policy of a few array
+/// operations takes, because busy-waiting keeps the cores occupied.
 const AWAKE: Duration = Duration::from_micros(100);
 
 impl Threads {
@@ -38,8 +39,8 @@ impl Threads {
         self.number
     }
 
-    /// Calls `work` once on each thread, including the calling thread. Its argument is the position of the thread,
-    /// which is the same in every call.
+    /// Calls `work` once on each thread, including the calling thread. Its argument is the position
+    /// of the thread, which is the same in every call.
     pub(crate) fn all(&mut self, work: impl Fn(usize) + Sync) {
         if self.number == 1 {
             return work(0);
@@ -61,7 +62,8 @@ impl Threads {
     }
 }
 
-/// Busy-waits for the next call for a while, because waking a thread takes as long as a step of a hundred days.
+/// Busy-waits for the next call for a while, because waking a thread takes as long as a step of a
+/// hundred days.
 fn stay_awake(calls: &AtomicU64, call: u64) {
     let since = Instant::now();
     while calls.load(Ordering::Acquire) == call && since.elapsed() < AWAKE {
@@ -72,7 +74,8 @@ fn stay_awake(calls: &AtomicU64, call: u64) {
 impl Drop for Pool {
     fn drop(&mut self) {
         if self.process != std::process::id() {
-            // The threads do not exist in a forked process, and dropping the pool there might wait for them for ever.
+            // The threads do not exist in a forked process, and dropping the pool there might wait
+            // for them for ever.
             std::mem::forget(self.threads.take());
         }
     }

@@ -1,4 +1,5 @@
-//! `Trace`: every decision of a day, and `check`, which judges a trace independently of the simulator.
+//! `Trace`: every decision of a day, and `check`, which judges a trace independently of the
+//! simulator.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -15,8 +16,8 @@ use crate::pickle::{Reduced, reduced};
 use crate::picture::Picture;
 use crate::scenario::Scenario;
 
-/// Every decision of a day with its outcome, one row each, in the order in which they were taken. It is a complete
-/// schedule.
+/// Every decision of a day with its outcome, one row each, in the order in which they were taken.
+/// It is a complete schedule.
 #[pyclass(frozen, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Trace {
@@ -47,7 +48,8 @@ impl Trace {
         Ok(Self { scenario: Arc::clone(&scenario.scenario), trace: Arc::new(trace) })
     }
 
-    /// Writes the trace as a CSV file. An existing file that is read-only or not a trace is replaced only with `force`.
+    /// Writes the trace as a CSV file. An existing file that is read-only or not a trace is
+    /// replaced only with `force`.
     #[pyo3(signature = (path, *, force = false))]
     fn write(&self, path: PathBuf, force: bool) -> Result<(), Failure> {
         core::check_output(&path, &sim::Trace::FILE, force)?;
@@ -59,9 +61,9 @@ impl Trace {
         self.trace.to_csv(&self.scenario)
     }
 
-    /// The columns as numpy arrays, with the same names as in the file. Times are in seconds since midnight, money in
-    /// dollars and energy in kWh. `aircraft`, `from` and `to` are positions in `Scenario.aircraft` and
-    /// `Scenario.vertiports`. A hold goes from a vertiport to itself.
+    /// The columns as numpy arrays, with the same names as in the file. Times are in seconds since
+    /// midnight, money in dollars and energy in kWh. `aircraft`, `from` and `to` are positions in
+    /// `Scenario.aircraft` and `Scenario.vertiports`. A hold goes from a vertiport to itself.
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = &self.trace.rows;
@@ -93,8 +95,8 @@ impl Trace {
         frame(&self.columns(py)?, "polars")
     }
 
-    /// The trace as a picture: where passengers flew, what every aircraft did, how full the vertiports were, and how much
-    /// demand was served and spilled.
+    /// The trace as a picture: where passengers flew, what every aircraft did, how full the
+    /// vertiports were, and how much demand was served and spilled.
     pub(crate) fn plot(&self, py: Python<'_>) -> Picture {
         Picture { text: py.detach(|| schedule(&self.scenario, &self.trace.rows)) }
     }
@@ -125,9 +127,10 @@ impl Trace {
     }
 }
 
-/// Checks a schedule against the rules, independently of the simulator. Returns the report as a dict: `valid`,
-/// `totals` (the results of the day, computed again), `broken` (how often each rule is broken) and `findings` (where it
-/// is broken). A schedule of another day is matched by the ids of its vertiports and aircraft, as a file would be.
+/// Checks a schedule against the rules, independently of the simulator. Returns the report as a
+/// dict: `valid`, `totals` (the results of the day, computed again), `broken` (how often each rule
+/// is broken) and `findings` (where it is broken). A schedule of another day is matched by the ids
+/// of its vertiports and aircraft, as a file would be.
 #[pyfunction]
 #[pyo3(signature = (scenario, trace))]
 pub(crate) fn check<'py>(

@@ -30,8 +30,8 @@ pub(crate) struct Training {
 
 #[pymethods]
 impl Training {
-    /// The weights. After PPO, these are the weights that did best on the validation days; after imitation, the last
-    /// ones.
+    /// The weights. After PPO, these are the weights that did best on the validation days; after
+    /// imitation, the last ones.
     #[getter]
     fn model(&self) -> Model {
         Model { model: Arc::clone(&self.model) }
@@ -43,8 +43,8 @@ impl Training {
         self.is_done
     }
 
-    /// The learning curve as numpy arrays, with the same names as in its CSV file. Entries are NaN where nothing was
-    /// measured.
+    /// The learning curve as numpy arrays, with the same names as in its CSV file. Entries are NaN
+    /// where nothing was measured.
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let columns = Columns::new(py);
@@ -100,7 +100,8 @@ impl WorldArgument {
     }
 }
 
-/// Trains a policy on a network, or on networks that are drawn anew for each day. Ctrl-C ends the run with a checkpoint, from which `resume` continues it.
+/// Trains a policy on a network, or on networks of which a new one is drawn for each day. Ctrl-C
+/// ends the run with a checkpoint, from which `resume` continues it.
 #[pyfunction]
 #[pyo3(signature = (
     network, policy, *, out, preset = "default", settings = None, seed = None, begin_with = None, resume = false,
@@ -171,8 +172,8 @@ fn training_of(run: &dyn TrainingRun) -> Training {
     Training { model: Arc::new(run.model()), curve: run.curve(), is_done: run.is_done() }
 }
 
-/// Shows the progress of a run, with a bar if there is a terminal, and by calling the caller's function if there is
-/// one.
+/// Shows the progress of a run, with a bar if there is a terminal, and by calling the caller's
+/// function if there is one.
 struct Shown {
     bar: Bar,
     watch: Option<Py<PyAny>>,

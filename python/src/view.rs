@@ -48,7 +48,8 @@ impl View {
         })
     }
 
-    /// Position of the aircraft that decides, or, when the day is over, of the aircraft that decided last.
+    /// Position of the aircraft that decides, or, when the day is over, of the aircraft that
+    /// decided last.
     #[getter]
     fn aircraft(&self) -> u16 {
         self.decision.aircraft.0

@@ -1,12 +1,13 @@
-//! Whole numbers from Python, which may have any size. They are checked when the type that they are needed in is known.
+//! Whole numbers from Python, which may have any size. They are checked when the type that they are
+//! needed in is known.
 
 use pyo3::prelude::*;
 use pyo3::{Borrowed, PyErr};
 
 use crate::failure::Failure;
 
-/// A whole number. A number that is too large for `i128` becomes `i128::MAX`, and one that is too small becomes
-/// `i128::MIN`; no argument accepts a number of that size in any case.
+/// A whole number. A number that is too large for `i128` becomes `i128::MAX`, and one that is too
+/// small becomes `i128::MIN`; no argument accepts a number of that size in any case.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct WholeNumber(i128);
 

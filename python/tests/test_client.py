@@ -45,7 +45,7 @@ def program() -> str:
 
 
 class Service:
-    """A service with a data folder of its own, on a port that the system chose."""
+    """A service with a separate data folder, on a port that the system chose."""
 
     def __init__(self, data: Path) -> None:
         self.data = data
@@ -90,7 +90,7 @@ class Service:
 
 
 class Relay:
-    """Passes bytes on between clients and a service, and loses connections when it is told to.
+    """Passes bytes on between clients and a service, and loses connections on request.
 
     With a context it speaks TLS with the clients, as a proxy before a service does.
     """

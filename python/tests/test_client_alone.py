@@ -1,4 +1,4 @@
-"""What the client of the dispatch service does by itself: without a service, or with one that fails."""
+"""The client of the dispatch service without a service, or with one that fails."""
 
 from __future__ import annotations
 

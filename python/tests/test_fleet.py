@@ -264,7 +264,7 @@ def test_copies_share_what_never_changes_and_nothing_else() -> None:
         while not other.step(0)[2]:
             pass
         other.reset()
-        assert env.time_s == env.scenario.periods_s[0], "the copy plays a day of its own"
+        assert env.time_s == env.scenario.periods_s[0], "the copy plays a separate day"
     assert copy.copy(env).reset()[1]["day"] == env.reset()[1]["day"], "the copy draws the same next day"
 
 

@@ -35,7 +35,7 @@ def test_ctrl_c_ends_a_long_call(call: str, tmp_path: Path) -> None:
     program = f"import vertifleet\nprint('begun', flush=True)\n{LONG[call]}\nprint('done', flush=True)"
     process = subprocess.Popen(
         [sys.executable, "-c", program],
-        # Away from the sources, which have no extension module beside them.
+        # Away from the sources, which have no extension module next to them.
         cwd=tmp_path,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,

@@ -210,7 +210,7 @@ def test_what_cannot_be_shown_is_refused(arguments: dict[str, Any], says: str) -
 
 
 class Greedy:
-    """A policy as an object, which counts the days that it was told of."""
+    """A policy as an object, which counts the days that it was notified of."""
 
     def __init__(self) -> None:
         self.days = 0

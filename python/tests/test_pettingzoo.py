@@ -95,7 +95,7 @@ def test_copies_play_on_by_themselves_and_share_what_never_changes(how: Any) -> 
         actions.append(first_feasible(other))
         other.step(actions[-1])
     after = (env.agent_selection, env.rewards, env.terminations, env._cumulative_rewards)
-    assert after == before, "the copy plays a day of its own"
+    assert after == before, "the copy plays a separate day"
     for action in actions:
         env.step(action)
     assert env._cumulative_rewards == other._cumulative_rewards

@@ -159,7 +159,7 @@ class Days:
 
     def __init__(self, url: str) -> None:
         self.url = url
-        # Generated requests have one of their own, which they may spoil.
+        # Generated requests have a separate one, which they may spoil.
         self.session, self.session_of_cases = requests.Session(), requests.Session()
         self.keys = count()
 

@@ -191,7 +191,7 @@ def camel(text: str) -> str:
 
 
 def described(schema: Schema) -> str:
-    """What is said of a schema, by itself or by what it refers to with a few words of its own."""
+    """The description of a schema, or of the schema that it refers to with an addition."""
     alternatives = [*schema.get("oneOf", []), *schema.get("anyOf", [])]
     said = [schema, *alternatives]
     return next((" ".join(part["description"].split()) for part in said if part.get("description")), "")

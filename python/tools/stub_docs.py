@@ -26,7 +26,7 @@ def docs(thing: Any) -> str:
 
 
 def docstring(text: str, indent: int) -> list[str]:
-    """The lines of a docstring, wrapped anew."""
+    """The lines of a docstring, wrapped again."""
     room = WIDTH - indent
     paragraphs = [" ".join(part.split()) for part in text.split("\n\n")]
     wrapped = "\n\n".join(

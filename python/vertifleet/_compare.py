@@ -52,7 +52,7 @@ def compare(
             "training". With the latter two, `seed` is the number of the first day, 1 by default.
         days_from: days of your own instead of drawn ones: a folder of scenario files (all ``*.json``, in the
             order of their names), files, or scenarios. They must have the same vertiports, and each must have
-            a name of its own.
+            a different name.
         models: weights or functions, by policy name, for names other than the rules and the shipped weights.
             A function decides one decision at a time, but the days may take turns: a function that remembers
             anything between calls needs ``threads=1``, which plays one day after the other.

@@ -521,11 +521,11 @@ def find_suite(name: str) -> tuple[str, str | None, list[Scenario], list[float],
 
 @final
 class Days:
-    """Where days come from: given networks, or networks drawn anew for each day. Every number names a day."""
+    """Where days come from: given networks, or networks of which a new one is drawn for each day. Every number names a day."""
     def __new__(cls, source: str | Sequence[Network], split: str) -> Days: ...
     @staticmethod
     def are_drawn(name: str) -> bool:
-        """Whether a name stands for networks that are drawn anew for each day."""
+        """Whether a name stands for networks of which a new one is drawn for each day."""
     @property
     def sizes(self) -> tuple[int, int, int, int]:
         """The most vertiports, aircraft, types and periods of a day."""
@@ -830,7 +830,7 @@ def sweep_cells(
 ) -> list[tuple[dict[str, Any], Network | str]]:
     """The cells of a sweep: what is changed in each, and the network with that change, or the reason why
     there is none. The values of a path are a list, or a text as the program's `--vary` takes it. With
-    `latin`, so many cells are drawn with `seed`; otherwise every combination is one.
+    `latin`, this many cells are drawn with `seed`; otherwise every combination is one.
     """
 
 def sweep_report(
@@ -867,6 +867,6 @@ def train(
     threads: SupportsIndex | None = None,
     watch: Callable[[dict[str, Any]], object] | None = None,
 ) -> Training:
-    """Trains a policy on a network, or on networks that are drawn anew for each day. Ctrl-C ends the run
+    """Trains a policy on a network, or on networks of which a new one is drawn for each day. Ctrl-C ends the run
     with a checkpoint, from which `resume` continues it.
     """

@@ -27,7 +27,7 @@ PolicyFunction: TypeAlias = Callable[[Any], Any]
 
 @runtime_checkable
 class OwnPolicy(Protocol):
-    """A policy with a memory: a class, of which each day gets an object of its own, or one object for all
+    """A policy with a memory: a class, of which each day gets a separate object, or one object for all
     days.
 
     It may also have a method ``reset(view)``, which is called at the first decision of each day. Days are

@@ -77,7 +77,7 @@ class View:
     passenger_cost_usd: Numbers
     """[N, N] cost of a passenger."""
     flight_cost_usd: Numbers
-    """[N, N] cost of a flight beside its energy."""
+    """[N, N] cost of a flight, without its energy."""
     distance_mi: Numbers
     """[N, N] distance."""
     flight_time_h: Numbers

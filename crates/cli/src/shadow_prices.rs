@@ -27,8 +27,8 @@ pub(crate) fn of_stands(scenario: &Scenario, bound: &Bound) -> Map<String, Value
 }
 
 /// The shadow price of one more charger all day, dollars by vertiport, for the vertiports that have
-/// chargers beside their other stands. The bound does not tell the two apart, so this is the shadow
-/// price of one more stand there.
+/// chargers besides their other stands. The bound does not distinguish the two, so this is the
+/// shadow price of one more stand there.
 pub(crate) fn of_chargers(scenario: &Scenario, bound: &Bound) -> Map<String, Value> {
     let separate = VertiportIx::all(scenario.vertiports.len())
         .filter(|vertiport| scenario.vertiports[vertiport.at()].chargers.is_some());

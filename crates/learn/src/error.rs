@@ -94,8 +94,8 @@ pub enum Error {
         /// All shipped policies.
         known: String,
     },
-    /// V308 damaged learning curve. The learning curve beside a weight file (`gcaps-curve.csv`
-    /// beside `gcaps.safetensors`) is not one that `train` wrote. `compare` reads it for its
+    /// V308 damaged learning curve. The learning curve next to a weight file (`gcaps-curve.csv`
+    /// next to `gcaps.safetensors`) is not one that `train` wrote. `compare` reads it for its
     /// figure.
     ///
     /// Fix: restore the file, or remove it to have the report without this curve.
@@ -181,13 +181,13 @@ impl Coded for Error {
                 Some("this policy's weights fit one network only; train it on this one")
             }
             Self::BadCheckpoint { .. } => Some(
-                "resume with the settings the run was started with, or start anew in another folder",
+                "resume with the settings the run was started with, or start again in another folder",
             ),
             Self::NotShipped { .. } => Some(
                 "name a rule (random, greedy, prices, rolling), gcaps-x, or give weights with --model",
             ),
             Self::BadCurve { .. } => Some(
-                "`vertifleet train` writes the curve beside the weights; remove the file to go without",
+                "`vertifleet train` writes the curve next to the weights; remove the file to go without",
             ),
             Self::Diverged { .. } => Some("lower learning_rate; the last checkpoint is as it was"),
             Self::Core(error) => error.hint(),

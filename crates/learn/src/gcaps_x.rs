@@ -3,7 +3,7 @@
 //! The features of `gcaps` and `mlp` grow with the number of vertiports, and so do their weights.
 //! Here the features of a node describe what a flight to that vertiport means to the deciding
 //! aircraft, in dimensionless numbers, so the graph capsules and the attention of §IV have the same
-//! weights for any number of vertiports and aircraft. The network does not decide by itself: the
+//! weights for any number of vertiports and aircraft. The network does not decide alone: the
 //! day's bid prices say what each choice is worth, and the network says what to add to that
 //! ([`crate::scorer`]). It learns by [imitation](crate::imitation) of roll-outs.
 

@@ -71,7 +71,8 @@ fn weights_of_zeros_decide_as_prices_do() {
 #[test]
 fn the_less_is_at_stake_the_less_weights_add() {
     let paper = &days()[0];
-    // The size of the network's additions on a day on which only one in so many passengers is left.
+    // The size of the network's additions on a day on which only one in this many passengers is
+    // left.
     let addition_usd = |one_in: u32| {
         let mut day = Scenario::clone(paper).into_day();
         day.demand.iter_mut().flat_map(Matrix::cells_mut).for_each(|cell| *cell /= one_in);

@@ -10,7 +10,7 @@ use crate::settings::TrainingSettings;
 /// The format of weight files.
 pub(crate) const FORMAT: &str = "vertifleet-weights/2";
 
-/// The members that every header has beside the format.
+/// The members that every header has besides the format.
 const MEMBERS: [&str; 8] =
     ["network", "policy", "shape", "feature_scales", "settings", "seed", "commit", "steps"];
 

@@ -20,7 +20,7 @@ fn small(adjacency: Adjacency) -> Architecture {
     Architecture::GcapsFull(GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) })
 }
 
-/// The same policy twice, with opinions of its own.
+/// The same policy twice, with different values.
 fn twice(policy: &Architecture) -> [Learned; 2] {
     let weights = with_opinions(policy, 1);
     [(); 2].map(|()| Learned(Scorer::new(policy, None, Arc::clone(&weights))))

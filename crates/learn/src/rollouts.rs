@@ -14,8 +14,8 @@ use vertifleet_sim::{Decision, Imagined};
 
 use crate::scorer::Scorer;
 
-/// The settings of the roll-outs that policies learn from, and of those of `gcaps-x`, if its choices
-/// are rolled out at all.
+/// The settings of the roll-outs that policies learn from, and of those of `gcaps-x`, if its
+/// choices are rolled out at all.
 pub(crate) const ROLLOUTS: RolloutSettings =
     RolloutSettings { horizon_s: 7_200, rollouts: 8, noise: 0.06, price_weight: 0.5 };
 /// Why a roll-out that the network scores always has a decision.

@@ -19,7 +19,7 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// No rows yet, of what a policy observes of days with so many vertiports.
+    /// No rows yet, of what a policy observes of days with this number of vertiports.
     pub(crate) fn new(policy: &Architecture, vertiports: usize) -> Self {
         Self {
             shape: policy.shape(vertiports),

@@ -10,7 +10,8 @@
 //!
 //! where the unit is the profit of a typical full flight, or less if the decision has less at stake
 //! ([`PricedDecision::addition_usd`]). A network of zeros adds nothing, so it decides as `prices`
-//! does. Only the choices of a [`Shortlist`] are scored, which are worth nearly as much as the best.
+//! does. Only the choices of a [`Shortlist`] are scored, which are worth nearly as much as the
+//! best.
 //!
 //! The other policies decide by their logits alone, between all feasible choices.
 

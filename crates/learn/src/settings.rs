@@ -120,8 +120,8 @@ impl TrainingSettings {
     }
 }
 
-/// A way to learn. Its settings begin a [`TrainingRun`], which makes steps and has a curve with a row
-/// for each. A new way is a folder like `ppo/` and a variant of [`TrainingSettings`].
+/// A way to learn. Its settings begin a [`TrainingRun`], which makes steps and has a curve with a
+/// row for each. A new way is a folder like `ppo/` and a variant of [`TrainingSettings`].
 pub(crate) trait Learner {
     /// The first columns of its learning curve, by which the file is recognised.
     fn curve_opening(&self) -> &'static str;

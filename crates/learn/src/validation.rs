@@ -1,4 +1,4 @@
-//! The validation days of a run: what a policy earns there beside `prices`.
+//! The validation days of a run: what a policy earns there compared with `prices`.
 
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ pub(crate) struct Validated {
 }
 
 impl ValidationDays {
-    /// So many days of a world, and as many of random networks and [`random_city`], by turns, where
+    /// `count` days of a world, and as many of random networks and [`random_city`], by turns, where
     /// `of_any_size` is set.
     pub(crate) fn of(world: &World, count: u32, of_any_size: bool) -> Result<Self, Error> {
         let random = if of_any_size { count } else { 0 };

@@ -15,7 +15,7 @@ use vertifleet_sim::{DayKey, View};
 
 use crate::column::hours;
 
-/// Demand periods that are kept; a later one takes the place of the one that lies so many before
+/// Demand periods that are kept; a later one takes the place of the one that lies this many before
 /// it.
 const PERIODS: usize = 8;
 /// Most vertiports of all days that are kept at a time, as many as a batch of decisions has.

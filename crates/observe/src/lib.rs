@@ -5,8 +5,8 @@
 //! filled without allocating memory. Everything in a row comes from a
 //! [`View`](vertifleet_sim::View), so it shows what is known at the decision and nothing else.
 //!
-//! Learned policies decide by some of these numbers; a [`Writer`] writes an [`Observation`] as their
-//! networks take it.
+//! Learned policies decide by some of these numbers; a [`Writer`] writes an [`Observation`] as
+//! their networks take it.
 //!
 //! ```
 //! use std::sync::Arc;

@@ -32,7 +32,7 @@ pub struct Shape {
 }
 
 impl Observation {
-    /// The shape of the features of a day with so many vertiports.
+    /// The shape of the features of a day with this number of vertiports.
     pub const fn shape(self, vertiports: usize) -> Shape {
         let (node_features, aircraft_features) = match self {
             Self::Paper => (2 * vertiports + 4, 2 * vertiports + 2),
@@ -42,8 +42,8 @@ impl Observation {
         Shape { vertiports, node_features, aircraft_features }
     }
 
-    /// The names of the features of a vertiport, and of those of the aircraft, in their order. Those
-    /// of the paper have none: most of them are about another vertiport each.
+    /// The names of the features of a vertiport, and of those of the aircraft, in their order.
+    /// Those of the paper have none: most of them are about another vertiport each.
     pub fn names(self) -> [Vec<&'static str>; 2] {
         match self {
             Self::Paper => [Vec::new(), Vec::new()],
@@ -79,7 +79,8 @@ enum Eye {
 }
 
 impl Writer {
-    /// A writer of an observation; `scales` are for that of the paper, and `edges` for the full one.
+    /// A writer of an observation; `scales` are for that of the paper, and `edges` for the full
+    /// one.
     ///
     /// # Panics
     /// Panics if the paper's observation has no scales.

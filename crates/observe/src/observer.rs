@@ -1,4 +1,4 @@
-//! What the observations of a day need beside the day itself.
+//! The data that the observations of a day need besides the day itself.
 
 use vertifleet_core::{FeatureScales, Network};
 use vertifleet_policy::{PriceMemory, Shortlist};

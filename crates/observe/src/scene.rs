@@ -5,7 +5,7 @@ use vertifleet_sim::{Decision, VertiportSet, View};
 
 use crate::Sizes;
 
-/// A decision, and what its observation needs beside it.
+/// A decision, and what its observation needs besides it.
 #[derive(Debug, Clone, Copy)]
 pub struct Scene<'a> {
     pub(crate) view: View<'a>,

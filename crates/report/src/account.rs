@@ -150,7 +150,7 @@ fn caption(picture: PlayedPicture) -> &'static str {
         }
         PlayedPicture::Occupancy => {
             "A stand is taken from the decision to fly there until the decision to fly away. All capacities are drawn at the same height; \
-             the number beside the dashed line is the capacity, with chargers where these are counted apart."
+             the number next to the dashed line is the capacity, with chargers where these are counted apart."
         }
         PlayedPicture::Demand => {
             "Margin in the table below is what passengers would have paid less what carrying them costs, electricity and flights aside."

@@ -82,7 +82,7 @@ pub fn check(folder: &Path, force: bool) -> Result<(), Error> {
 
 /// Writes the report of a comparison into `folder`, or nothing; the folder is created if it does
 /// not exist. An earlier report in it is replaced; with `force`, a folder with other content is
-/// kept beside it.
+/// kept next to it.
 ///
 /// # Errors
 /// The same as those of [`check`], and [`Error::Core`] (V102) if the report cannot be written.

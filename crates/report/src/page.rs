@@ -2,7 +2,7 @@
 //!
 //! The template escapes every text that it is given; only the figures and the style sheet, which
 //! the program itself makes, are inserted as they are. The page loads nothing: style and figures
-//! are inside, and links point to files beside the page.
+//! are inside, and links point to files next to the page.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -75,7 +75,7 @@ impl Report<'_> {
         }
     }
 
-    /// The days that can be watched, in a frame of their own, which keeps their style and their
+    /// The days that can be watched, in a separate frame, which keeps their style and their
     /// scripts apart from the page.
     fn replay(&self, page: &str) -> Markup {
         let which = match self.replayed {
@@ -97,13 +97,13 @@ impl Report<'_> {
         }
     }
 
-    /// What to know about the page, and links to the files beside it.
+    /// What to know about the page, and links to the files next to it.
     fn footer(&self) -> Markup {
         html! {
             footer {
                 @for paragraph in &self.closing { p { (paragraph) } }
                 @if let Files::Beside(files) = &self.files {
-                    p { "Files beside this page: "
+                    p { "Files next to this page: "
                         @for (position, file) in files.iter().enumerate() {
                             @if position > 0 { "; " }
                             a href=(file.name) { (file.name) } " (" (file.about) ")"

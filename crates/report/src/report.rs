@@ -48,7 +48,7 @@ pub enum Files<'a> {
     None,
     /// The page holds its figures as files to download. Their names begin with this text.
     Within(String),
-    /// Figures and data stand beside the page.
+    /// Figures and data stand next to the page.
     Beside(Vec<DataFile<'a>>),
 }
 

@@ -79,7 +79,7 @@ fn certificate(report: &SizeReport) -> String {
     match report.certificate {
         Certificate::MostProfit { no_design_earns_more_than_usd: most, gap } => format!(
             "No design within these limits earns more than {} a day on the days of the search, under any policy: this one, with {}, \
-             is {:.1} % below that, and the bound of its own design {:.1} %.",
+             is {:.1} % below that, and the bound of this design {:.1} %.",
             dollars(most),
             report.policy,
             100.0 * gap,

@@ -287,7 +287,7 @@ pub enum Error {
     /// one: a client that asks again and again, or many clients with one token. Requests without a
     /// token that is in force are counted together.
     ///
-    /// Fix: wait a second, ask less often, and give each client a token of its own. A client that
+    /// Fix: wait a second, ask less often, and give each client a separate token. A client that
     /// wants to know what happens reads the stream of the day instead of asking for its state.
     #[error("{who} sent more than {most} requests in a second")]
     TooOften {

@@ -31,7 +31,7 @@ const TAKE_BODIES: [&str; 3] = ["events", "decisions", "what-if"];
 /// What takes a query, on a day.
 const TAKE_QUERIES: [&str; 6] =
     ["state", "demand", "events", "stream", "outlook", "aircraft/A01/decision"];
-/// The headers with a meaning of their own.
+/// The headers with a special meaning.
 const HEADERS: [&str; 4] = ["authorization", "idempotency-key", "if-match", "last-event-id"];
 
 /// A service that is reached through nothing but this.

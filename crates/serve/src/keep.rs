@@ -170,7 +170,7 @@ impl Keeper {
         named
     }
 
-    /// Who did what beside the events of days, in its order.
+    /// The actions other than the events of days, in order.
     ///
     /// # Errors
     /// Returns [`Error::Store`] if it cannot be read.
@@ -230,7 +230,7 @@ pub fn restore(copy: &Path, folder: &Path) -> Result<Contents, Error> {
     }
     let bytes =
         std::fs::read(copy).map_err(|error| failed(format!("{}: {error}", copy.display())))?;
-    // It is checked in a place of its own, so that a damaged copy never looks like the data of a
+    // It is checked in a separate place, so that a damaged copy never looks like the data of a
     // service.
     let trial: PathBuf = folder.join("restoring");
     let io_failed = |error: std::io::Error| failed(format!("{}: {error}", trial.display()));

@@ -39,7 +39,7 @@ impl Default for Limits {
     }
 }
 
-/// Files that the service needs beside its connections: the store, the log, the standard streams.
+/// Files that the service needs besides its connections: the store, the log, the standard streams.
 const OTHER_FILES: u64 = 256;
 
 impl Limits {

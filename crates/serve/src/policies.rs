@@ -1,5 +1,5 @@
-//! The policies that decide: those that the program has, and weights that were uploaded under names
-//! of their own.
+//! The policies that decide: those that the program has, and weights that were uploaded under other
+//! names.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};

@@ -135,7 +135,7 @@ fn described() -> Resource {
     }
 }
 
-/// The trace that a request belongs to, from its headers. `tracestate` beside it may be long, is
+/// The trace that a request belongs to, from its headers. `tracestate` next to it may be long, is
 /// not sent on, and stays out.
 struct Caller<'a>(&'a HeaderMap);
 

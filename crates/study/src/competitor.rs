@@ -77,7 +77,7 @@ impl Selection<'_> {
         self.resolve_each(network)?.into_iter().map(|(_, competitor)| competitor).collect()
     }
 
-    /// Like [`resolve`](Self::resolve), with a result of its own for each name.
+    /// Like [`resolve`](Self::resolve), with a separate result for each name.
     ///
     /// # Errors
     /// Returns an error if names and weights do not go together, or if two competitors have the

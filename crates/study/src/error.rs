@@ -269,7 +269,7 @@ impl Coded for Error {
             }
             Self::Empty { .. } => Some("a comparison takes at least one policy and one day"),
             Self::DuplicatePolicy { .. } => {
-                Some("give a second model of the same kind a name of its own among the models")
+                Some("give a second model of the same kind a different name")
             }
             Self::Unpaired { .. } => Some("run all policies in one comparison"),
             Self::Stuck { .. } => Some(
@@ -279,9 +279,9 @@ impl Coded for Error {
             Self::PartsDiffer { .. } => {
                 Some("join all parts of one comparison, in the order of their days")
             }
-            Self::DaysDiffer { .. } => {
-                Some("days of one comparison have the same vertiports, and each a name of its own")
-            }
+            Self::DaysDiffer { .. } => Some(
+                "days of one comparison have the same vertiports, and each has a different name",
+            ),
             Self::UnknownPolicy { meant, .. } => Some(
                 meant.as_deref().unwrap_or("for weights of your own, give a model under this name"),
             ),

@@ -44,11 +44,11 @@ pub(crate) struct Journal {
 
 impl Journal {
     /// Opens the journal at `path`, and returns the parts that it holds, up to the first that
-    /// `is_new` refuses. With `anew`, a journal with another head is replaced.
+    /// `is_new` refuses. With `fresh`, a journal with another head is replaced.
     pub(crate) fn open<Part: DeserializeOwned>(
         path: &Path,
         head: &Head,
-        anew: bool,
+        fresh: bool,
         is_new: impl FnMut(&Part) -> bool,
     ) -> Result<(Self, Vec<Part>), Error> {
         let text = match fs::read_to_string(path) {
@@ -67,7 +67,7 @@ impl Journal {
         let found =
             text.split_inclusive('\n').next().and_then(|line| serde_json::from_str(line).ok());
         if found.as_ref() != Some(head) {
-            if anew {
+            if fresh {
                 return Ok((Self::begin(path, head)?, Vec::new()));
             }
             return Err(Error::OtherStudy { path: path.to_owned() });
@@ -153,10 +153,10 @@ mod tests {
         CellRecord { cell, upper_bounds_usd: vec![1.0 / 7.0], totals: vec![vec![day]] }
     }
 
-    fn open(folder: &Path, study: &str, anew: bool) -> Result<(Journal, Vec<CellRecord>), Error> {
+    fn open(folder: &Path, study: &str, fresh: bool) -> Result<(Journal, Vec<CellRecord>), Error> {
         let head = Head { format: "a format/1".to_owned(), study: study.to_owned() };
         let mut known = BTreeSet::new();
-        Journal::open(&folder.join(NAME), &head, anew, |record: &CellRecord| {
+        Journal::open(&folder.join(NAME), &head, fresh, |record: &CellRecord| {
             known.insert(record.cell)
         })
     }
@@ -168,7 +168,7 @@ mod tests {
         journal.add(&record(3)).expect("room");
         let other = open(folder.path(), "xyz", false).err().expect("another study");
         assert_eq!(other.code().to_string(), "V414");
-        let (_, records) = open(folder.path(), "xyz", true).expect("anew");
+        let (_, records) = open(folder.path(), "xyz", true).expect("a fresh journal");
         assert!(records.is_empty());
     }
 

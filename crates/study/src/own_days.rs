@@ -2,7 +2,7 @@
 //! or scenarios in memory.
 //!
 //! Results are averaged and compared pair by pair, so the days must go together: they must have the
-//! same vertiports in the same order, and each must have a name of its own. Fleet, demand, tariffs,
+//! same vertiports in the same order, and each must have a different name. Fleet, demand, tariffs,
 //! times and disturbances may differ from day to day.
 
 use std::collections::BTreeSet;

@@ -61,7 +61,7 @@ enum Kind {
 /// What a name refers to, if the user says so.
 #[derive(Debug, Clone)]
 pub enum PolicySource {
-    /// Weights in a file, with the learning curves that may stand beside it.
+    /// Weights in a file, with the learning curves that may stand next to it.
     File(PathBuf),
     /// Weights that have been read.
     Model(Arc<Model>),
@@ -209,7 +209,7 @@ impl PolicySpec {
             }
             most = most_rolled_out;
         }
-        // Learning curves are shown beside results of many days only. For one day, a curve that
+        // Learning curves are shown with results of many days only. For one day, a curve that
         // cannot be read must not cause an error.
         let curves = match (source, days) {
             (PolicySource::File(path), ResolveFor::DaysOf(_)) => Curve::read_beside(path)?,

@@ -1,4 +1,4 @@
-//! The figures that §V.B of the paper publishes, and why they stand beside our results without
+//! The figures that §V.B of the paper publishes, and why they stand next to our results without
 //! being a target.
 
 use serde::Serialize;
@@ -63,7 +63,7 @@ pub const NOTE: [&str; 3] = [
      a day and a one-line greedy rule (highest profit per hour) $38,790.",
     "That environment also differs from the paper’s text, which Vertifleet follows: it has 19 aircraft, take-off and \
      landing of 6 minutes, no passenger cost, and demand that hardly binds. So the measure of a policy here is what \
-     it earns beside the random and the greedy rule on the same unseen days.",
+     it earns next to the random and the greedy rule on the same unseen days.",
 ];
 
 /// The published results that apply to this network: those of §V.B for `paper` as it is shipped,

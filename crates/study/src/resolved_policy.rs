@@ -165,7 +165,7 @@ impl ResolvedPolicy {
             Self::Greedy => "takes the flight with the highest profit per hour".to_owned(),
             Self::BidPrices => "takes what is worth most at the day's prices".to_owned(),
             Self::Rolling => "rolls out what is worth nearly most at the day's prices".to_owned(),
-            Self::Own(_) => "decides in a way of its own".to_owned(),
+            Self::Own(_) => "decides in its own way".to_owned(),
             Self::Replay(_) => "repeats the decisions of a trace".to_owned(),
             Self::Learned { model, most_rolled_out, .. } => {
                 let header = model.header();

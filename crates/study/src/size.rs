@@ -161,7 +161,7 @@ impl Sizing {
         let aim = self.aim(stop)?;
         let found = search(&self.space, &aim, self.designs, &mut solver)?;
         let report = SizeReport::of(self, command, &aim, &found, &mut solver)?;
-        // A line of its own, whatever the command holds.
+        // A separate line, whatever the command holds.
         let made_by = report.command.replace(['\n', '\r'], " ");
         let best = format!(
             "# The design that was found by: {made_by}\n\n{}",

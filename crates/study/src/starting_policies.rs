@@ -1,4 +1,4 @@
-//! The policies from whose days a plan may set out, beside the rules that the planner knows itself.
+//! The policies from whose days a plan may start, besides the rules that the planner includes.
 
 use vertifleet_core::Scenario;
 use vertifleet_optimize::StartingPolicy;

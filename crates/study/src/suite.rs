@@ -50,8 +50,8 @@ enum DrawnFrom {
     Cities,
     /// A random network for each day, from number 0 on; the seed is the network's number.
     RandomNetworks,
-    /// A network like the paper's with so many vertiports at random places for each day, from
-    /// number 0 on; the seed is the network's number.
+    /// A network like the paper's with this number of vertiports at random places for each day,
+    /// from number 0 on; the seed is the network's number.
     RandomPlaces(usize),
 }
 
@@ -146,7 +146,7 @@ impl Suite {
         })
     }
 
-    /// A day of each of the first random networks, if the name asks for so many.
+    /// A day of each of the first random networks, if the name asks for a number of them.
     fn of_random_networks(name: &str) -> Option<Self> {
         let networks: u32 = name.strip_prefix(RANDOM)?.parse().ok()?;
         (1..=MOST_DAYS).contains(&networks).then(|| Self {

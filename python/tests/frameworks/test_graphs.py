@@ -98,11 +98,11 @@ def test_weights_of_any_graph_go_to_the_program_and_come_back(graph, tmp_path):
         nodes, aircraft = random.random((6, count, 37), np.float32), random.random((6, 11), np.float32)
         mask, clock = np.ones((6, count)), random.random(6, np.float32)
         weights = random.random((6, count, count), np.float32) * (random.random((6, count, count)) < 0.5)
-        beside = {"edges": weights.astype(np.float32)} if twin.edges else {}
-        expected = model.forward(nodes, aircraft, mask, clock, **beside)
+        extra = {"edges": weights.astype(np.float32)} if twin.edges else {}
+        expected = model.forward(nodes, aircraft, mask, clock, **extra)
         with torch.inference_mode():
             inputs = (torch.from_numpy(array) for array in (nodes, aircraft, clock))
-            found = twin(*inputs, **{name: torch.from_numpy(array) for name, array in beside.items()})
+            found = twin(*inputs, **{name: torch.from_numpy(array) for name, array in extra.items()})
         for answers, expected_answers in zip(found, expected, strict=True):
             largest = max(np.abs(expected_answers).max(), 1)
             np.testing.assert_allclose(answers.numpy(), expected_answers, rtol=0, atol=1e-5 * largest)

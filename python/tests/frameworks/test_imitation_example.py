@@ -48,7 +48,7 @@ def the_example() -> ModuleType:
 
 
 class Calls:
-    """Calls of the example in a folder of their own."""
+    """Calls of the example in a separate folder."""
 
     def __init__(self, patch: pytest.MonkeyPatch, said: pytest.CaptureFixture[str], folder: Path) -> None:
         self._patch, self._said, self._main = patch, said, the_example().main

@@ -37,7 +37,7 @@ class ServiceError(Error):
 
     @property
     def is_transient(self) -> bool:
-        """Whether the same request may be carried out later, so that clients send it again by themselves."""
+        """Whether the same request may be carried out later, so that clients send it again."""
         # V614: the first sending of this request, whose answer did not come, is still being carried out.
         return self.status in TRANSIENT or self.code == "V614"
 
@@ -66,7 +66,7 @@ def error_of(answer: httpx.Response) -> ServiceError:
 
 
 def stranger(answer: httpx.Response) -> ServiceError:
-    """The error for an answer that says in words of its own that it is one."""
+    """The error for an answer that is not in the service's form."""
     said = " ".join(answer.text.split())[:200]
     rule = f"{answer.url}: answered {answer.status_code} {answer.reason_phrase}: {said}"
     return ServiceError("V613", rule, "check the address, and proxies on the way", answer.status_code)

@@ -64,7 +64,7 @@ class TwinExtractor(BaseFeaturesExtractor):
     def forward(self, observations: dict[str, Tensor]) -> Tensor:
         """Logits and value.
 
-        The observed mask is applied here, so that a call without a mask of its own, such as plain `predict`
+        The observed mask is applied here, so that a call without a mask, such as plain `predict`
         or `evaluate_policy`, decides as the program does. MaskablePPO asks the environment for the same mask.
         """
         check_mask(observations["action_mask"])

@@ -1,4 +1,4 @@
-"""The encoders beside the paper's: graph capsules on any graph, and self-attention.
+"""The encoders besides the paper's: graph capsules on any graph, and self-attention.
 
 Self-attention knows no graph. They have the tensors of the program's `capsule_layers.rs`,
 `self_attention.rs` and `fleet.rs`.

@@ -1,4 +1,4 @@
-"""GCAPS (§IV, Eq. 18-21, Table 3): graph-capsule encoder, attention decoder, and a value head beside it.
+"""GCAPS (§IV, Eq. 18-21, Table 3): graph-capsule encoder, attention decoder, and a value head.
 
 h is the embedding length, h_e the number of heads, d = h / h_e. The encoder here is the paper's, with P = 2,
 K = 2 and L_e = 1 on the complete graph; a `Graph` chooses among those of `encoders.py`.

@@ -72,7 +72,7 @@ class Graph:
 
     @property
     def uses_paper_encoder(self) -> bool:
-        """Whether the encoder is the paper's, whatever the decoder is."""
+        """Whether the encoder is the paper's; the decoder does not matter."""
         return replace(self, attention=True).is_of_the_paper
 
     @property

@@ -28,10 +28,10 @@ it('omits hints for programs', () => {
 })
 
 it('shows other messages of the service as sentences with the code', () => {
-  const problem = new ProblemError(412, 'V605', 'the day has gone on', 'read the day again, and decide anew')
+  const problem = new ProblemError(412, 'V605', 'the day has gone on', 'read the day again, and decide again')
   expect(problemText(problem)).toEqual({
     title: 'The day has gone on.',
-    hint: 'Read the day again, and decide anew.',
+    hint: 'Read the day again, and decide again.',
     code: 'V605',
   })
   expect(problemText(new ProblemError(404, 'V602', 'there is no path "/x"', undefined)).code).toBe('V602')

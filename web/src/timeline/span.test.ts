@@ -22,7 +22,7 @@ describe('a span', () => {
     expect(near.to - near.from).toBe(300)
   })
 
-  it('moves only as far as necessary to show a time', () => {
+  it('moves no more than necessary to show a time', () => {
     const near = { from: 10 * 3600, to: 12 * 3600 }
     expect(showTime(near, 11 * 3600, whole)).toBe(near)
     expect(showTime(near, 13 * 3600, whole).to).toBe(13 * 3600 + 720)

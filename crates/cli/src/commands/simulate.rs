@@ -73,14 +73,15 @@ fn text(totals: &DayTotals, scenario: &Scenario, policy: &str) -> String {
             totals.energy_cost_usd, totals.energy_kwh
         ),
     ];
-    let beside = [
+    let fixed_costs = [
         ("flight cost  ", totals.flight_cost_usd),
         ("aircraft cost", totals.aircraft_cost_usd),
         ("site cost    ", totals.site_cost_usd),
     ];
     // What aircraft cost is said also if it is nothing: a network may not know it.
-    let beside = beside.into_iter().filter(|&(name, cost)| cost != 0.0 || name == "aircraft cost");
-    lines.extend(beside.map(|(name, cost)| format!("  {name}   {cost:>12.2} $")));
+    let fixed_costs =
+        fixed_costs.into_iter().filter(|&(name, cost)| cost != 0.0 || name == "aircraft cost");
+    lines.extend(fixed_costs.map(|(name, cost)| format!("  {name}   {cost:>12.2} $")));
     lines.extend([
         format!(
             "  reward          {:>12.5}    of {:.0} $ potential",

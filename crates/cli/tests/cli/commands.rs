@@ -94,7 +94,7 @@ fn several_days_are_bounded_with_means() {
     near(&found["mean"]["upper_bound_usd"], of("upper_bound_usd"));
     for (id, mean) in found["mean"]["stand_shadow_price_usd"].as_object().expect("vertiports") {
         near(mean, days.iter().map(|day| number(&day["stand_shadow_price_usd"][id])).collect());
-        // The vertiport has chargers beside its other stands, and the bound does not tell the two
+        // The vertiport has chargers besides its other stands, and the bound does not tell the two
         // apart.
         assert_eq!(mean, &found["mean"]["charger_shadow_price_usd"][id]);
     }

@@ -1,4 +1,4 @@
-//! What a planner does with the program: makes a network of data of their own, looks at it, asks
+//! What a planner does with the program: makes a network from their data, looks at it, asks
 //! what a change is worth, and takes a day along.
 
 use std::fs;

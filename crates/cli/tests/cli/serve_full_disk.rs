@@ -20,7 +20,7 @@ const SCRIPT: &str = r#"mount -t tmpfs -o size=8m tmpfs "$0" || exit 9
 "$@"
 exec sleep 600"#;
 
-/// A shell with a small disk of its own, on which the service runs.
+/// A shell with a separate small disk, on which the service runs.
 struct SmallDisk {
     shell: Service,
     folder: PathBuf,

@@ -19,7 +19,7 @@ use vertifleet_testkit::{Postgres, draw};
 const CLIENTS: usize = 4;
 /// Days that they write to by turns.
 const DAYS: usize = 2;
-/// After so many kills all events are looked at, and new days begin: reading long days again after
+/// After this many kills all events are read, and new days begin: reading long days again after
 /// each kill would take most of the time.
 const KILLS_OF_A_ROUND: u32 = 50;
 
@@ -98,7 +98,7 @@ impl Client<'_> {
         None
     }
 
-    /// Writes events until it is told to stop: in turn one with a mark of its own, and one that all
+    /// Writes events until it is stopped: in turn one with a separate mark, and one that all
     /// clients send.
     fn write(&self, client: usize, instances: &[&str], days: &[String]) -> Vec<Acknowledged> {
         let mut acknowledged = Vec::new();
@@ -164,7 +164,7 @@ impl Trial<'_> {
             let service = &mut services[kill as usize % count];
             (self.meanwhile)(service, kill, milliseconds(50 + draw(kill, 0) % 200));
             if let Some(status) = service.child.try_wait().expect("a child") {
-                return Err(format!("before kill {kill} it ended by itself: {status}"));
+                return Err(format!("before kill {kill} it ended without a kill: {status}"));
             }
             service.child.kill().expect("kill -9");
             service.child.wait().expect("it is dead");
@@ -174,7 +174,7 @@ impl Trial<'_> {
         Ok(())
     }
 
-    /// Kills instances while clients write to days of their own.
+    /// Kills instances while clients write to separate days.
     fn round(&self, services: &mut [Service], kills: std::ops::Range<u32>, outcome: &mut Outcome) {
         let addresses: Vec<String> =
             services.iter().map(|service| service.address.clone()).collect();
@@ -262,7 +262,7 @@ fn check(stored: &[BTreeMap<u64, String>], acknowledged: &[Vec<Acknowledged>]) {
             );
         }
     }
-    // Beside what was acknowledged there is at most the last request of each client.
+    // Besides what was acknowledged there is at most the last request of each client.
     let count: usize = acknowledged.iter().map(Vec::len).sum();
     let extra = stored.iter().map(BTreeMap::len).sum::<usize>() - count;
     assert!(extra <= CLIENTS, "{extra} events were stored and never acknowledged");

@@ -1,4 +1,4 @@
-//! The service in a process of its own, as its users start it.
+//! The service in a separate process, as its users start it.
 
 use std::io::{BufRead as _, BufReader};
 use std::process::{Child, Command, Stdio};

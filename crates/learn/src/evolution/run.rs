@@ -192,8 +192,9 @@ impl EvolutionRun {
             .collect()
     }
 
-    /// Takes a step of Adam along the directions, each as far as the days along it earned more than
-    /// those against it. The slopes are measured in the root of the mean square of the differences.
+    /// Takes a step of Adam along the directions, each in proportion to how much more the days
+    /// along it earned than those against it. The slopes are measured in the root of the mean
+    /// square of the differences.
     fn step(&mut self, seed: u64, differences: &[f64], root: f64) {
         let mut slopes = vec![0.0; self.params.len()];
         for (pair, difference) in (0..).zip(differences) {

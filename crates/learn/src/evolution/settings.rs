@@ -20,7 +20,7 @@ pub struct EvolutionSettings {
     pub noise: f32,
     /// Adam's step size; it falls in a straight line to a tenth over the run.
     pub learning_rate: f32,
-    /// After so many generations the weights play the validation days.
+    /// After this many generations the weights play the validation days.
     pub eval_every: u32,
     /// Number of validation days of the network, and also of random networks.
     pub validation_days: u32,

@@ -20,7 +20,7 @@ pub struct ImitationSettings {
     /// share of them is.
     #[serde(default = "usual_samples")]
     pub samples: u32,
-    /// In so many of the last rounds, the policy itself decides in the roll-outs, and not the
+    /// In this many of the last rounds, the policy itself decides in the roll-outs, and not the
     /// prices.
     #[serde(default)]
     pub own_rounds: u32,

@@ -148,7 +148,7 @@ impl GraphSettings {
         *self == Self::default()
     }
 
-    /// Whether the encoder is the paper's, whatever the decoder is.
+    /// Whether the encoder is the paper's; the decoder does not matter.
     pub(crate) fn uses_paper_encoder(&self) -> bool {
         Self { attention: true, ..*self }.is_of_the_paper()
     }
@@ -218,7 +218,7 @@ impl Architecture {
         self.parts().2
     }
 
-    /// The shape of what the policy observes of a day with so many vertiports.
+    /// The shape of what the policy observes of a day with this number of vertiports.
     pub(crate) fn shape(&self, vertiports: usize) -> Shape {
         self.observation().shape(vertiports)
     }

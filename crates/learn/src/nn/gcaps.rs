@@ -1,7 +1,7 @@
 //! GCAPS (§IV, Eq. 18-21, Table 3): a graph-capsule encoder, an attention decoder, and a value head
-//! beside it.
+//! next to it.
 //!
-//! The encoder of the paper on the complete graph has a form of its own, which takes a third of the
+//! The encoder of the paper on the complete graph has a special form, which takes a third of the
 //! products ([`encoder`]). All other settings of the graph have encoders that do what they say,
 //! product by product.
 

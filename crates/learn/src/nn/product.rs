@@ -188,7 +188,7 @@ mod tests {
             for (at, (&after, &before)) in after.iter().zip(&before).enumerate() {
                 let (row, place) = (at / (columns + margin), at % (columns + margin));
                 let Some(column) = place.checked_sub(margin) else {
-                    assert_eq!(after.to_bits(), before.to_bits(), "what is beside the block stays");
+                    assert_eq!(after.to_bits(), before.to_bits(), "what is next to the block stays");
                     continue;
                 };
                 let sum: f64 = (0..inner).map(|k| entry(left, row, k) * entry(right, k, column)).sum();

@@ -306,7 +306,7 @@ mod tests {
     use crate::nn::{Architecture, GcapsSettings};
     use crate::ppo::{PpoSettings, Reward};
 
-    /// Days of `paper` on which flights and aircraft have costs of their own.
+    /// Days of `paper` on which flights and aircraft have fixed costs.
     fn source() -> Source {
         let network = Network::shipped("paper").expect("a shipped network");
         let costs = [("flight_cost_usd", 20), ("aircraft_cost_usd_per_day", 100)];

@@ -103,7 +103,7 @@ pub(crate) fn training_days(
             let seed = DaySeed::training(run_seed, day)?;
             let number = random_before(day);
             let is_random = number < random_before(day + 1);
-            // Every day has a seed of its own, so no two runs share a network that is drawn.
+            // Every day has a different seed, so no two runs share a network that is drawn.
             let network = match (is_random, number % 2.0 == 0.0) {
                 (false, _) => world.network(Purpose::Training, seed.get()),
                 (true, true) => World::Random.network(Purpose::Training, seed.get()),

@@ -1,5 +1,5 @@
 //! Learning curves, with one row for a step of learning, whichever way it is. They are CSV files
-//! beside the weights of their run; curves of runs with other seeds may stand there too.
+//! next to the weights of their run; curves of runs with other seeds may stand there too.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,18 +36,18 @@ pub enum Cell {
 
 impl Curve {
     /// The path at which `train` writes the learning curve of these weights: `gcaps-curve.csv`
-    /// beside `gcaps.safetensors`.
-    pub fn beside(weights: &Path) -> PathBuf {
+    /// next to `gcaps.safetensors`.
+    pub fn next_to(weights: &Path) -> PathBuf {
         weights.with_file_name(format!("{}-curve.csv", name(weights)))
     }
 
-    /// The curve beside the weights, if there is one, followed by those of runs with other seeds,
+    /// The curve next to the weights, if there is one, followed by those of runs with other seeds,
     /// `gcaps-seed-2-curve.csv` and so on, in the order of the seeds.
     ///
     /// # Errors
     /// Returns an error if one of the files cannot be read or is not a curve.
     pub fn read_beside(weights: &Path) -> Result<Vec<Self>, Error> {
-        let own = Self::beside(weights);
+        let own = Self::next_to(weights);
         if !own.exists() {
             return Ok(Vec::new());
         }
@@ -146,7 +146,7 @@ impl Curve {
     }
 
     /// Number of decisions learned from, and mean reward of the last training days; empty for ways
-    /// to learn that do not learn from the rewards of their own days.
+    /// to learn that do not learn from the rewards of their days.
     pub fn training_rewards(&self) -> Vec<(u64, f64)> {
         self.measured("mean_reward")
     }

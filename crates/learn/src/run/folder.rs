@@ -49,7 +49,7 @@ impl RunFolder {
         let weights = folder.join(format!("{name}.safetensors"));
         Self {
             folder: folder.to_owned(),
-            curve: Curve::beside(&weights),
+            curve: Curve::next_to(&weights),
             weights,
             checkpoint: folder.join(format!("{name}-checkpoint.safetensors")),
             events: folder.join("tensorboard").join(name),

@@ -134,8 +134,8 @@ fn links_of_a_report_lead_to_files_beside_it() {
     let folder = paths.page.parent().expect("a file has a folder");
     let links: Vec<&str> =
         page.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
-    let beside = fs::read_dir(folder).expect("the report's folder").count();
-    assert_eq!(links.len(), beside - 1, "all files but the page itself");
+    let files = fs::read_dir(folder).expect("the report's folder").count();
+    assert_eq!(links.len(), files - 1, "all files but the page itself");
     for link in links {
         assert!(folder.join(link).is_file(), "{link}");
     }

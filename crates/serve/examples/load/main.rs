@@ -4,9 +4,9 @@
 //!
 //! `decisions` operates days of `paper`, each client its own, one after the other, with `gcaps-x`
 //! (or with the policy that follows the seconds); `events` books passengers, each client on its own
-//! day, one at a time; `streams` sends 500 events a second to one day, which so many clients read,
-//! and measures the time from sending an event to each reader. The last two numbers are the clients
-//! and the seconds. Only addresses of this machine are loaded.
+//! day, one at a time; `streams` sends 500 events a second to one day, which this many clients
+//! read, and measures the time from sending an event to each reader. The last two numbers are the
+//! clients and the seconds. Only addresses of this machine are loaded.
 
 mod streams;
 
@@ -25,7 +25,7 @@ struct Load {
     until: Instant,
     /// The time that each request took, milliseconds.
     took_ms: Mutex<Vec<f64>>,
-    /// Events beside the requests that are measured.
+    /// Events besides the requests that are measured.
     others: Mutex<u64>,
 }
 

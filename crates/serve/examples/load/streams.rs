@@ -17,7 +17,7 @@ const COUNTS: usize = 1_000;
 
 type Counts = Arc<Vec<AtomicU64>>;
 
-/// Lets so many clients read a day, to which events are sent for some time.
+/// Lets this many clients read a day, to which events are sent for some time.
 pub(crate) fn load(url: &str, clients: u64, time: Duration) -> Value {
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(1)

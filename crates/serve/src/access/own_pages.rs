@@ -1,5 +1,5 @@
 //! Without tokens the service trusts every program on its machine, and browsers there show pages of
-//! the whole world. Such a page can send requests to this machine, and by a name of its own that
+//! the whole world. Such a page can send requests to this machine, and by a name that
 //! leads here it could even read the answers. So requests must name this machine, and those of a
 //! page must come from a page of this machine.
 

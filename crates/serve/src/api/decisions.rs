@@ -236,7 +236,7 @@ async fn proposed(
     Ok(proposal)
 }
 
-/// Asks a policy on a thread of its own, since it may take a while. Nothing takes a thread while it
+/// Asks a policy on a separate thread, since it may take a while. Nothing takes a thread while it
 /// waits for its turn, so that a client that gives up leaves no work behind that has not begun.
 async fn ask(
     service: &Service,

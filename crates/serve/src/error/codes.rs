@@ -49,7 +49,7 @@ impl Coded for Error {
             Self::Core(error) => error.hint(),
             Self::Study(error) => error.hint(),
             Self::InList { cause, .. } => cause.hint(),
-            Self::Moved { .. } => Some("read the day again, and decide anew"),
+            Self::Moved { .. } => Some("read the day again, and decide again"),
             Self::ReportError(_) => Some("if it is so in reality, report first what led there"),
             Self::NoSuchEvent { .. } | Self::OtherLog { .. } => {
                 Some("the day may have been put back from a copy: read its state again")

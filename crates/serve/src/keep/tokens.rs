@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::store::{Location, Store};
 use crate::tokens::{Role, StoredToken};
 
-/// Makes, lists and revokes tokens, beside a running service or without one.
+/// Makes, lists and revokes tokens, with or without a running service.
 #[derive(Debug)]
 pub struct Tokens {
     runtime: tokio::runtime::Runtime,

@@ -1,7 +1,7 @@
 //! A day on which people decide: the operator tells what happens, and time stands still until all
 //! who wait have a decision.
 //!
-//! People decide in an order of their own, take decisions back as long as the aircraft has not
+//! People decide in any order, take decisions back as long as the aircraft has not
 //! departed, and report what they know. The simulated day follows them.
 
 use std::collections::HashMap;

@@ -99,7 +99,7 @@ fn trusted(file: &Path) -> Result<Vec<Certificate<'static>>, Error> {
     Ok(certificates)
 }
 
-/// Sends requests, each write with a key of its own, so that it can be sent again.
+/// Sends requests, each write with a different key, so that it can be sent again.
 pub(super) struct Client {
     url: String,
     agent: ureq::Agent,

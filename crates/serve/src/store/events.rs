@@ -12,7 +12,7 @@ use crate::taken_event::TakenEvent;
 pub(crate) const PAGE: u32 = 10_000;
 /// Events that are read at once to be replayed.
 const REPLAYED: u32 = 1_000;
-/// About so many bytes of events are read at once, so that neither long events nor many readers
+/// About this many bytes of events are read at once, so that neither long events nor many readers
 /// fill the memory.
 const PAGE_BYTES: usize = 4 << 20;
 

@@ -1,5 +1,5 @@
 //! Networks and weights of policies that were uploaded, in the store, each with a description
-//! beside it.
+//! next to it.
 //!
 //! A description is what a program answered when it read the network or the weights, as JSON. It
 //! counts for that version of the program alone, and until what it describes is uploaded again, so

@@ -21,7 +21,7 @@ const TABLES: [&str; 10] = [
         policy TEXT NOT NULL, date TEXT NOT NULL DEFAULT '',
         time_zone TEXT NOT NULL DEFAULT '', sum BIGINT NOT NULL DEFAULT -1,
         seq BIGINT NOT NULL DEFAULT 0, chain BIGINT NOT NULL DEFAULT 0)",
-    // Beside the rows of days, which change with every event.
+    // Apart from the rows of days, which change with every event.
     "CREATE TABLE IF NOT EXISTS scenarios (day TEXT PRIMARY KEY, scenario TEXT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS events (
         day TEXT NOT NULL, seq BIGINT NOT NULL, at_ms BIGINT NOT NULL, actor TEXT NOT NULL,

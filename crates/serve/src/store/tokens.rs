@@ -1,4 +1,4 @@
-//! Tokens in the store, as hashes, and the record of who did what beside the events of days.
+//! Tokens in the store, as hashes, and the record of all actions other than the events of days.
 
 use serde::Serialize;
 use sqlx::any::AnyRow;
@@ -8,7 +8,7 @@ use super::Store;
 use crate::error::Error;
 use crate::tokens::{Role, StoredToken};
 
-/// Something that was done beside the events of days.
+/// An action other than the events of days.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct AuditRecord {
     /// When, milliseconds of the Unix clock.
@@ -47,7 +47,7 @@ impl Store {
         rows.iter().map(stored_token).collect()
     }
 
-    /// Who did what beside the events of days, in its order.
+    /// The actions other than the events of days, in order.
     pub(crate) async fn audit(&self) -> Result<Vec<AuditRecord>, Error> {
         let select = "SELECT at_ms, actor, action, target FROM audit ORDER BY at_ms";
         let rows = query_as(select).fetch_all(&self.pool).await?;

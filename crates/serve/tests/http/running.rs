@@ -1,4 +1,4 @@
-//! A service that runs in this process, on a port of its own.
+//! A service that runs in this process, on a separate port.
 
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::Path;
@@ -28,7 +28,7 @@ impl Running {
         Self::start_with(location, Limits::default())
     }
 
-    /// Starts a service with its data somewhere and with limits of its own.
+    /// Starts a service with its data somewhere and with given limits.
     pub(crate) fn start_with(location: Location, limits: Limits) -> Self {
         Self::start_as(Settings { limits, ..settings_for(location) })
     }

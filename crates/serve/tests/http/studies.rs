@@ -100,7 +100,7 @@ fn a_study_has_the_numbers_of_compare() {
     let page = service.get(&format!("{study}/report"));
     let page = page.json.as_str().expect("a page").to_owned();
     assert!(page.starts_with("<!DOCTYPE html>") && page.contains("greedy earns"), "{page}");
-    assert!(!page.contains("summary.json"), "nothing stands beside it");
+    assert!(!page.contains("summary.json"), "nothing stands next to it");
     assert!(page.contains("<iframe class=\"replay\"") && !page.contains("href=\"replay.html\""));
     let replay = service.get(&format!("{study}/replay")).json;
     let plays = replay["days"][0]["plays"].as_array().expect("what each policy did");

@@ -38,7 +38,7 @@ pub struct StandWorth {
 }
 
 impl StandWorth {
-    /// The worth at the vertiport in this position, on a day with so many demand periods.
+    /// The worth at the vertiport in this position, on a day with this number of demand periods.
     pub(super) fn of(bound: &Bound, at: usize, periods: usize) -> Self {
         let at = VertiportIx::new(at);
         Self {

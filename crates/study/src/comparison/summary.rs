@@ -49,7 +49,7 @@ pub struct ComparisonReport {
     pub policies: Vec<PolicySummary>,
     /// Every pair of policies once, in the order of `policies`.
     pub comparisons: Vec<PairedDifference>,
-    /// The published results to show beside these; empty except for days drawn from the network
+    /// The published results to show next to these; empty except for days drawn from the network
     /// `paper` as it is shipped.
     pub published: &'static [PublishedResult],
     /// The results of the trainings of the learned policies.
@@ -64,7 +64,7 @@ pub struct ComparisonReport {
 pub struct TrainingSummary {
     /// The name of the policy.
     pub policy: String,
-    /// Number of runs, each with a seed of its own.
+    /// Number of runs, each with a different seed.
     pub runs: usize,
     /// Decisions learned from, in the mean over the runs.
     pub decisions: f64,

@@ -18,7 +18,7 @@ pub(super) struct Cut {
 }
 
 impl Cut {
-    /// The bound with so many things above the lowest numbers.
+    /// The bound with this many things above the lowest numbers.
     pub(super) fn at(&self, above: &[u32]) -> f64 {
         let each = self.slopes.iter().zip(above);
         self.constant + each.map(|(slope, &above)| slope * f64::from(above)).sum::<f64>()
@@ -45,7 +45,7 @@ pub(super) struct Ceiling {
 }
 
 impl Ceiling {
-    /// A ceiling without cuts over designs of at most so many things above the lowest numbers.
+    /// A ceiling without cuts over designs of at most this many things above the lowest numbers.
     pub(super) fn new(most: impl IntoIterator<Item = u32>, room: Headroom) -> Self {
         let most = most.into_iter().map(f64::from).collect();
         Self { most, room, cuts: Vec::new(), scale: 1.0 }

@@ -37,7 +37,7 @@ const CORRECTED: f64 = 0.7;
 
 /// What the search asks about designs.
 pub(super) trait Solver {
-    /// Bounds what is wanted of all designs, near the truth with so many things above the lowest
+    /// Bounds what is wanted of all designs, near the truth with this many things above the lowest
     /// numbers.
     fn bound(&mut self, above: &Design) -> Result<Cut, Error>;
     /// Plays the days of a design.
@@ -68,7 +68,7 @@ impl Aim {
         if self.goal == Goal::MostProfit { played.profit_usd } else { played.carried }
     }
 
-    /// What so many things above the lowest numbers cost.
+    /// The cost of this many things above the lowest numbers.
     fn cost(&self, above: &[u32]) -> f64 {
         self.costs.iter().zip(above).map(|(cost, &above)| cost * f64::from(above)).sum()
     }

@@ -223,7 +223,7 @@ fn latin_hypercube(factors: &[Factor], cells: usize, seed: u64) -> Vec<Vec<Value
             let share = (part as f64 + 0.5) / cells as f64;
             cell.push(match &factor.levels {
                 Levels::List(values) => values[part * values.len() / cells].clone(),
-                // Each whole number has a part of the range of its own, the first and the last too.
+                // Each whole number has a separate part of the range, the first and the last too.
                 &Levels::Range(low, high, true) => {
                     number((high - low + 1.0).mul_add(share, low).floor(), true)
                 }

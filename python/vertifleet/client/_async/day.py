@@ -64,7 +64,7 @@ class AsyncDay:
         """What is known of the day: every aircraft, every vertiport, the account and the notices.
 
         Args:
-            seq: the number of an event; what was known after it is told, in place of what is known now.
+            seq: the number of an event; the answer is what was known after this event, not what is known now.
             times: how times are written.
 
         Raises:
@@ -158,7 +158,7 @@ class AsyncDay:
     ) -> AsyncGenerator[TakenEvent, None]:
         """All events, and then those to come, as they come. It ends only with an error.
 
-        After a lost connection it goes on by itself where it was, so that every event comes once. Nothing is
+        After a lost connection it continues where it was, so that every event comes once. Nothing is
         lost either if events come faster than they are read.
 
         Args:
@@ -180,7 +180,7 @@ class AsyncDay:
                 async with aclosing(self._connection.messages(asked)) as messages:
                     async for message in messages:
                         pauses = self._connection.pauses()
-                        # Other kinds are signs of life, and `behind`: what was missed follows by itself.
+                        # Other kinds are keep-alives, and `behind`: the missed events follow without a request.
                         if message.kind == "message":
                             event: TakenEvent = json.loads(message.text)
                             last = event["mark"]
@@ -263,7 +263,7 @@ class AsyncDay:
 
         Args:
             policy: the policy; without it, the day's.
-            seq: the number of an event; what was expected after it is told, in place of what is expected now.
+            seq: the number of an event; the answer is what was expected after this event, not what is expected now.
                 0 is the morning.
             times: how times are written.
 
