@@ -57,9 +57,9 @@ impl Observation {
 pub struct Row<'a> {
     /// Node features [N x F].
     pub nodes: &'a mut [f32],
-    /// Aircraft features [G].
+    /// Aircraft features `[G]`.
     pub aircraft: &'a mut [f32],
-    /// 1 for each vertiport that may be chosen [N].
+    /// 1 for each vertiport that may be chosen `[N]`.
     pub mask: &'a mut [u8],
     /// Weights of edges [N x N], or none.
     pub edges: &'a mut [f32],
