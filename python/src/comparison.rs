@@ -12,6 +12,7 @@ use vertifleet_progress::Bars;
 use vertifleet_report::{comparison_folder, folder};
 use vertifleet_study::comparison::DrawnDays;
 use vertifleet_study::competitor::Selection;
+use vertifleet_study::sweep::{Design, Factor, Sweep, SweepRequest};
 use vertifleet_study::{
     ComparisonRecords, ComparisonReport, DayRecord, Error, MOST_DAYS, OwnDays, PolicySource,
     comparison,
@@ -186,7 +187,7 @@ enum Days {
 }
 
 /// A comparison that was asked for, with its arguments checked and converted to Rust types.
-struct Request {
+pub(crate) struct Request {
     network: Option<Arc<core::Network>>,
     days: RequestedDays,
     policies: Vec<String>,
@@ -202,7 +203,11 @@ enum RequestedDays {
 
 impl Request {
     /// A policy that is a function sees the days as days of `network`.
-    fn of(network: Option<&Network>, arguments: Arguments<'_>, calls: &OwnCalls) -> PyResult<Self> {
+    pub(crate) fn of(
+        network: Option<&Network>,
+        arguments: Arguments<'_>,
+        calls: &OwnCalls,
+    ) -> PyResult<Self> {
         let step = Step::from_minutes(arguments.step.of("step")?);
         let source = |(name, value): (String, Bound<'_, PyAny>)| {
             let source = policy_source(&value, &name, network, calls)?;
@@ -230,6 +235,30 @@ impl Request {
             (RequestedDays::Own(days), _) => comparison::Comparison::of_own(days, &selection, step),
             (RequestedDays::Drawn(_), None) => unreachable!("days are drawn from a network"),
         }
+    }
+
+    /// The sweep over these factors; with `latin`, over this many cells of a Latin hypercube.
+    pub(crate) fn sweep(
+        self,
+        factors: Vec<Factor>,
+        latin: Option<usize>,
+        stop: &Stop,
+    ) -> Result<Sweep, Error> {
+        let Self { network, days, policies, models, step, policy_seed } = self;
+        let selection = Selection { policies: &policies, models: &models, seed: policy_seed };
+        let (RequestedDays::Drawn(drawn), Some(network)) = (days, network) else {
+            unreachable!("the days of a sweep are drawn from a network")
+        };
+        let request = SweepRequest {
+            network: &network,
+            factors,
+            design: latin
+                .map_or(Design::Grid, |cells| Design::LatinHypercube { cells, seed: drawn.first }),
+            selection: &selection,
+            drawn,
+            bound_step: step,
+        };
+        Sweep::new(request, stop)
     }
 }
 

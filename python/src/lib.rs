@@ -20,7 +20,6 @@ mod evaluation;
 mod failure;
 mod frames;
 mod interruptible;
-mod kept;
 mod layout;
 mod model;
 mod network;
@@ -56,9 +55,6 @@ mod _native {
     #[pymodule_export]
     use crate::evaluation::{Evaluation, evaluate, find_suite, suite_names, verify};
     #[pymodule_export]
-    #[pymodule_export]
-    use crate::kept::KeptParts;
-    #[pymodule_export]
     use crate::layout::Layout;
     #[pymodule_export]
     use crate::model::{Model, settings};
@@ -77,7 +73,7 @@ mod _native {
     #[pymodule_export]
     use crate::scenario::Scenario;
     #[pymodule_export]
-    use crate::sweep::{sweep_cells, sweep_report};
+    use crate::sweep::Sweep;
     #[pymodule_export]
     use crate::trace::{Trace, check};
     #[pymodule_export]

@@ -1,6 +1,5 @@
 //! `Network`: the network that days are drawn from.
 
-use std::collections::HashSet;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -36,7 +35,7 @@ impl Network {
         let name_or_path = name_or_path.to_string_lossy();
         let source = format!("vertifleet.Network({name_or_path:?})");
         let network = core::Network::find(&name_or_path).map_err(Failure::from)?;
-        Self::told(py, network, source, &mut HashSet::new())
+        Self::told(py, network, source)
     }
 
     /// Reads a network from the text of a network file. `origin` is the name of the file in
@@ -46,7 +45,7 @@ impl Network {
     fn from_toml(py: Python<'_>, text: &str, origin: &str) -> PyResult<Self> {
         let source = format!("vertifleet.Network.from_toml(..., {origin:?})");
         let network = core::Network::from_toml(text, origin).map_err(Failure::from)?;
-        Self::told(py, network, source, &mut HashSet::new())
+        Self::told(py, network, source)
     }
 
     /// The names of the shipped networks.
@@ -64,7 +63,8 @@ impl Network {
     fn changed(&self, changes: &Bound<'_, PyMapping>) -> PyResult<Self> {
         let asked = members("changes", changes)?;
         let network = self.network.changed(asked.iter().map(|(path, value)| (path, value)));
-        self.changed_with_warnings(changes, network.map_err(Failure::from)?, &mut HashSet::new())
+        let source = format!("{}.changed({})", self.source, changes.repr()?);
+        Self::told(changes.py(), network.map_err(Failure::from)?, source)
     }
 
     /// The Python expression that made the network, for people to read. A report contains it in its
@@ -170,31 +170,12 @@ impl Network {
 
 impl Network {
     /// Wraps a network that has just been read, and emits a Python warning for everything that
-    /// looks wrong with it and is not `said` yet.
-    fn told(
-        py: Python<'_>,
-        network: core::Network,
-        source: String,
-        said: &mut HashSet<String>,
-    ) -> PyResult<Self> {
+    /// looks wrong with it.
+    fn told(py: Python<'_>, network: core::Network, source: String) -> PyResult<Self> {
         for warning in network.warnings() {
-            if said.insert(warning.to_string()) {
-                warn(py, &format!("[{}] {source}: {warning}", warning.code()))?;
-            }
+            warn(py, &format!("[{}] {source}: {warning}", warning.code()))?;
         }
         Ok(Self::of(network, source))
-    }
-
-    /// This network with these changes. Python hears of those of its warnings that are not `said`
-    /// yet.
-    pub(crate) fn changed_with_warnings(
-        &self,
-        changes: &Bound<'_, PyAny>,
-        network: core::Network,
-        said: &mut HashSet<String>,
-    ) -> PyResult<Self> {
-        let source = format!("{}.changed({})", self.source, changes.repr()?);
-        Self::told(changes.py(), network, source, said)
     }
 
     pub(crate) fn of(network: core::Network, source: String) -> Self {

@@ -87,6 +87,9 @@ impl OwnPolicy {
 
 impl Policy for OwnPolicy {
     fn choose(&mut self, decision: &Decision, view: &View<'_>) -> Result<VertiportIx, PolicyError> {
+        if self.caller.calls.have_raised() {
+            return Err(PolicyError::Stopped);
+        }
         Python::attach(|py| self.ask(py, decision, *view))
             .map_err(|error| self.caller.stopped_by(error))
     }
@@ -164,6 +167,9 @@ impl Policy for OwnBatchPolicy {
         let asked: Vec<(Decision, View<'_>)> = asked.collect();
         if asked.is_empty() {
             return Ok(());
+        }
+        if self.caller.calls.have_raised() {
+            return Err(PolicyError::Stopped);
         }
         let chosen = Python::attach(|py| self.ask(py, &asked));
         choices.extend(chosen.map_err(|error| self.caller.stopped_by(error))?);

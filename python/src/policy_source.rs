@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use pyo3::prelude::*;
+use vertifleet_core as core;
 use vertifleet_observe::Observer;
 use vertifleet_policy::Policy;
 use vertifleet_study::{Error, PolicyFactory, PolicySource, Sees};
@@ -77,6 +78,11 @@ impl OwnCalls {
         self.lock().raised.take()
     }
 
+    /// Whether an exception was raised, after which no function is called any more.
+    pub(crate) fn have_raised(&self) -> bool {
+        self.lock().raised.is_some()
+    }
+
     /// The outcome of work that made these calls: an exception that one of them raised goes before
     /// an error.
     pub(crate) fn answered<T>(&self, outcome: Result<T, Error>) -> PyResult<T> {
@@ -137,6 +143,18 @@ pub(crate) fn of_own(
         (None, Some(network)) => Observer::of(&network.network),
         (None, None) => Observer::default(),
     };
+    let of_value = (value.clone().unbind(), name.to_owned(), calls.clone());
+    let on = move |network: &core::Network| {
+        let (value, name, calls) = &of_value;
+        let of_network = |py: Python<'_>| {
+            let network = Network::of(network.clone(), network.name().to_owned());
+            of_own(value.bind(py), name, Some(&network), calls)
+        };
+        Python::attach(of_network).map_err(|error| {
+            calls.raise(error);
+            Error::Stopped
+        })
+    };
     let caller =
         Caller { make: Arc::new(make), observer, name: name.to_owned(), calls: calls.clone() };
     let make_policy = move || -> Box<dyn Policy> {
@@ -146,5 +164,15 @@ pub(crate) fn of_own(
             Box::new(OwnPolicy::new(caller.clone()))
         }
     };
-    Ok(PolicyFactory { make: Arc::new(make_policy), sees, in_batches })
+    let identity = identity(value)?;
+    Ok(PolicyFactory { identity, make: Arc::new(make_policy), on: Arc::new(on), sees, in_batches })
+}
+
+/// The name of a function or class, or of the class of an object, whose `repr` would differ from
+/// run to run.
+fn identity(value: &Bound<'_, PyAny>) -> PyResult<String> {
+    match value.getattr("__qualname__") {
+        Ok(name) => name.extract(),
+        Err(_) => value.get_type().getattr("__qualname__")?.extract(),
+    }
 }

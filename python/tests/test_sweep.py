@@ -1,6 +1,7 @@
 """Sweeps: every combination is a comparison of its own, and columns and table have its results."""
 
 import json
+import pickle
 import subprocess
 import sys
 import time
@@ -244,6 +245,27 @@ def test_a_sweep_goes_on_where_an_error_ended_it(paper, tmp_path):
     assert not decided
 
 
+def test_a_point_of_the_journal_is_what_it_was(paper, tmp_path):
+    request = {"changes": {"fleet.0.count": [36]}, "policies": ["greedy", "mlp"], "days": 2, "bound": True}
+    swept = vertifleet.sweep(paper, **request, journal=tmp_path / "sweep.jsonl")
+    again = vertifleet.sweep(paper, **request, journal=tmp_path / "sweep.jsonl")
+    copied = pickle.loads(pickle.dumps(swept))
+    for other in (again, copied):
+        assert_same(other, swept)
+        ((_, point),), ((_, expected),) = other.points, swept.points
+        assert point.summary == expected.summary, "times per decision are kept too"
+        assert point.warnings == expected.warnings != []
+    assert copied.report(tmp_path / "copied").read_text() == swept.report(tmp_path / "swept").read_text()
+
+
+def test_choices_outside_the_mask_are_counted_over_all_points(paper):
+    changes, models = {"fleet.0.count": [36, 40]}, {"stray": lambda _: 99}
+    with pytest.warns(UserWarning, match="outside the mask") as records:
+        swept = vertifleet.sweep(paper, changes, ["stray"], days=1, models=models)
+    decisions = sum(int(point.columns["decisions"].sum()) for _, point in swept.points)
+    assert [str(record.message).split()[2] for record in records] == [str(decisions)]
+
+
 def test_a_sweep_that_is_killed_again_and_again_comes_to_its_end(paper, tmp_path):
     journal = tmp_path / "sweep.jsonl"
     changes = {"fleet.0.count": list(range(31, 41))}
@@ -262,7 +284,7 @@ def test_a_sweep_that_is_killed_again_and_again_comes_to_its_end(paper, tmp_path
     assert lines > 1, "killed processes have kept something"
     # What a killed process was writing is cut off.
     with journal.open("a") as file:
-        file.write('{"point":3,"warnings":[],"rec')
+        file.write('{"cell":3,"upper_bounds_usd":[],"tot')
     found = vertifleet.sweep(paper, changes, ["prices"], days=4, journal=journal)
     assert_same(found, vertifleet.sweep(paper, changes, ["prices"], days=4))
     assert len(_lines(journal)) == 11, "a head, and each point once"

@@ -177,7 +177,7 @@ class ComparisonRequest:
             networks: the networks that the days are drawn from, or that own days are seen as days of.
             stacklevel: number of levels from here up to the user's call.
         """
-        request = self._for_native(self.days)
+        request = self.for_native()
         texts = [text for network in networks for text in _native.check_comparison(network, request)]
         for text in dict.fromkeys(texts):
             warnings.warn(text, stacklevel=stacklevel)
@@ -186,21 +186,23 @@ class ComparisonRequest:
         self, network: Network | None, threads: int | None, part: DrawnDays | None = None
     ) -> Comparison:
         """Plays the days, or a part of them."""
-        request = self._for_native(part or self.days)
-        return _native.compare(network, request, threads=threads, command=self._call_text(network))
+        request = self.for_native(part)
+        source = None if network is None else network.source
+        return _native.compare(network, request, threads=threads, command=self.call_text(source))
 
-    def _for_native(self, days: DrawnDays | OwnDays) -> dict[str, Any]:
+    def for_native(self, part: DrawnDays | None = None) -> dict[str, Any]:
+        """The request for the days, or a part of them, as the native side takes it."""
         return {
             "policies": list(self.policies),
-            "days": days,
+            "days": part or self.days,
             "models": self.models,
             "bound": self.bound,
             "step": self.step,
             "policy_seed": self.days.seed if self.policy_seed is None else self.policy_seed,
         }
 
-    def _call_text(self, network: Network | None) -> str:
-        """The call as it would be typed, for the report."""
+    def call_text(self, source: str | None) -> str:
+        """The call as it would be typed, for the report; `source` is its network."""
         said = [f"{list(self.policies)!r}", self.days.text]
         if self.models:
             models = ", ".join(f"{name!r}: {name_of(given)}" for name, given in self.models.items())
@@ -209,7 +211,6 @@ class ComparisonRequest:
             said += ["bound=True", f"step={self.step}"]
         if self.policy_seed is not None:
             said.append(f"policy_seed={self.policy_seed}")
-        source = None if network is None else network.source
         return f"{self.function}({source}, {', '.join(said)})"
 
 

@@ -22,7 +22,6 @@ __all__ = [
     "Days",
     "Environment",
     "Evaluation",
-    "KeptParts",
     "Layout",
     "Model",
     "Network",
@@ -31,6 +30,7 @@ __all__ = [
     "Played",
     "Policy",
     "Scenario",
+    "Sweep",
     "Trace",
     "Training",
     "View",
@@ -47,8 +47,6 @@ __all__ = [
     "settings",
     "simulate",
     "suite_names",
-    "sweep_cells",
-    "sweep_report",
     "train",
     "verify",
 ]
@@ -810,42 +808,42 @@ def read_days(paths: Sequence[_Path]) -> tuple[list[Scenario], str]:
     """
 
 @final
-class KeptParts:
-    """A file that finished comparisons are added to."""
-    @staticmethod
-    def open(path: _Path, depends_on: str) -> tuple[KeptParts, list[tuple[int, int, int, Comparison]]]:
-        """Opens the file at `path`, or begins it, and returns it with the parts that it holds: the number
-        of the network, the seed of the first day, the number of days, and the comparison. `depends_on`
-        is JSON that names everything that the results depend on.
+class Sweep:
+    """The cells of a sweep, and the results of those that are finished. The values of a path in `changes`
+    are a list, or a text as the program's `--vary` takes it. With `latin`, this many cells are drawn with
+    the seed of the days; otherwise every combination is one. Finished cells are kept in the file
+    `journal`, and those that it holds are not played again.
+    """
+    def __new__(
+        cls,
+        network: Network,
+        changes: Mapping[str, Any],
+        arguments: Mapping[str, Any],
+        latin: SupportsIndex | None = None,
+        journal: _Path | None = None,
+    ) -> Sweep: ...
+    def cells(self) -> list[tuple[dict[str, Any], str | None]]:
+        """What is changed in each cell, and the reason if it is left out."""
+    def network(self, cell: int) -> Network:
+        """The network of a cell that is not left out."""
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings about what is allowed but probably not intended, each once."""
+    def missing(self) -> list[int]:
+        """The numbers of the cells that are still to be played."""
+    def run(self, *, threads: SupportsIndex | None) -> None:
+        """Plays the cells that are missing."""
+    def add(self, cell: int, comparison: Comparison) -> None:
+        """Adds a cell that was played elsewhere."""
+    def comparisons(self, commands: Sequence[str]) -> list[Comparison | None]:
+        """The comparison in each cell, which records its command; None for a cell that is not finished."""
+    def report(self, folder: _Path, *, force: bool, command: str) -> Path:
+        """Writes tables, figures and a report page of the finished cells into a folder, and returns the
+        path of the page.
         """
-    def add(self, point: int, comparison: Comparison) -> None:
-        """Adds a comparison on the days of a network. It is on the disk when this returns."""
-
-def sweep_cells(
-    network: Network,
-    changes: Mapping[str, Any],
-    *,
-    latin: SupportsIndex | None,
-    seed: SupportsIndex,
-) -> list[tuple[dict[str, Any], Network | str]]:
-    """The cells of a sweep: what is changed in each, and the network with that change, or the reason why
-    there is none. The values of a path are a list, or a text as the program's `--vary` takes it. With
-    `latin`, this many cells are drawn with `seed`; otherwise every combination is one.
-    """
-
-def sweep_report(
-    network: Network,
-    design: str,
-    comparisons: Sequence[Comparison | None],
-    folder: _Path,
-    *,
-    force: bool,
-    command: str,
-) -> Path:
-    """Writes tables, figures and a report page of a sweep into a folder, and returns the path of the page.
-    `design` is JSON: the `paths` that were varied, and `values` with a list for each of the
-    `comparisons`, which are None where the cell was left out.
-    """
+    def __getnewargs__(self) -> tuple[Network, dict[str, Any], dict[str, Any], int | None]: ...
+    def __getstate__(self) -> str: ...
+    def __setstate__(self, finished: str, /) -> None: ...
 
 def settings(preset: str = "default", **changes: Any) -> dict[str, Any]:
     """The settings of a training preset of `gcaps` and `mlp` as a dict: `default`, `paper` (Table 2),

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import itertools
-import json
 import math
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from html import escape
-from typing import TYPE_CHECKING, Any, SupportsIndex, TypeAlias
+from typing import TYPE_CHECKING, Any, SupportsIndex
 
 import numpy as np
 
 from vertifleet import _native
 from vertifleet._compare import ComparisonRequest, DrawnDays, Split, network_of
 from vertifleet._errors import Error
-from vertifleet._kept import Parts
 
 if TYPE_CHECKING:
     import os
@@ -33,10 +31,6 @@ MEANS = ("profit_usd", "profit_low_usd", "profit_high_usd", "reward", "flights",
 """The columns that are means over the days; the last exists only if bounds were asked for."""
 
 
-Cell: TypeAlias = "tuple[dict[str, Any], Network | str]"
-"""What is changed, and the network with that change, or the reason why there is none."""
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class Sweep:
     """Variations of a network, with the results of every policy on each."""
@@ -52,6 +46,7 @@ class Sweep:
     """The network that was varied."""
     command: str = field(kw_only=True)
     """The call, for the report."""
+    _native: _native.Sweep = field(kw_only=True)
 
     @property
     def points(self) -> tuple[tuple[dict[str, Any], Comparison], ...]:
@@ -108,13 +103,7 @@ class Sweep:
         Raises:
             Error: V143 if the folder holds something else.
         """
-        paths = list(self.cells[0][0])
-        values = [[changes[path] for path in paths] for changes, _ in self.cells]
-        design = json.dumps({"paths": paths, "values": values})
-        comparisons = [None if isinstance(found, str) else found for _, found in self.cells]
-        return _native.sweep_report(
-            self.varied, design, comparisons, folder, force=force, command=self.command
-        )
+        return self._native.report(folder, force=force, command=self.command)
 
     def __str__(self) -> str:
         summary = self.points[0][1].summary
@@ -188,45 +177,36 @@ def sweep(
             the journal is of another sweep; the error of a network file with the change, before any day is
             played; and those of :func:`compare`.
     """
-    network = network_of(network)
-    drawn = DrawnDays.of(days, seed, split)
-    cells = variations(network, changes, latin, drawn)
-    points = played(cells)
+    network, drawn = network_of(network), DrawnDays.of(days, seed, split)
     request = ComparisonRequest.of("vertifleet.compare", policies, drawn, models, bound, step, policy_seed)
-    request.check(variation for _, variation in points)
-    parts = Parts.open(journal, network, [changes for changes, _ in points], request, drawn)
-    for point, (_, variation) in enumerate(points):
-        for missing in parts.missing(point, drawn.days):
-            parts.add(point, missing, request.compare(variation, threads, missing))
-    call = call_of("vertifleet.sweep", network, changes, latin, request)
-    return Sweep(network.name, request.policies, together(cells, parts), varied=network, command=call)
+    native = begin(network, changes, latin, request, journal)
+    native.run(threads=threads)
+    return end(native, network, request, call_of("vertifleet.sweep", network, changes, latin, request))
 
 
-def variations(
+def begin(
     network: Network,
     changes: Mapping[str, Iterable[Any] | str],
     latin: SupportsIndex | None,
-    drawn: DrawnDays,
-) -> list[Cell]:
-    """What is changed in each cell, and the network with that change, or the reason why there is none."""
-    if not changes and latin is None:
-        return [({}, network)]
+    request: ComparisonRequest,
+    journal: str | os.PathLike[str] | None,
+) -> _native.Sweep:
+    """The sweep, of which the cells in the journal are finished."""
     given = {path: _values(path, values) for path, values in changes.items()}
-    return _native.sweep_cells(network, given, latin=latin, seed=drawn.seed)
+    native = _native.Sweep(network, given, request.for_native(), latin, journal)
+    for text in native.warnings:
+        warnings.warn(text, stacklevel=3)
+    return native
 
 
-def played(cells: Iterable[Cell]) -> list[tuple[dict[str, Any], Network]]:
-    """The cells that have a network."""
-    return [(changes, varied) for changes, varied in cells if not isinstance(varied, str)]
-
-
-def together(cells: Iterable[Cell], parts: Parts) -> tuple[tuple[dict[str, Any], Comparison | str], ...]:
-    """The cells with their comparisons, which consist of these parts."""
-    points = itertools.count()
-    return tuple(
-        (changes, varied if isinstance(varied, str) else parts.joined(next(points)))
-        for changes, varied in cells
-    )
+def end(native: _native.Sweep, network: Network, request: ComparisonRequest, command: str) -> Sweep:
+    """The results of a sweep whose cells are finished."""
+    cells = native.cells()
+    sources = [f"{network.source}.changed({changes})" if changes else network.source for changes, _ in cells]
+    commands = list(map(request.call_text, sources))
+    found = zip(cells, native.comparisons(commands), strict=True)
+    results = tuple((changes, comparison or str(reason)) for (changes, reason), comparison in found)
+    return Sweep(network.name, request.policies, results, varied=network, command=command, _native=native)
 
 
 def call_of(

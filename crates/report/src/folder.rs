@@ -4,8 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use vertifleet_core::{FolderKind, OutputKind, replace_folder, write_atomically};
-use vertifleet_study::Error;
-use vertifleet_study::{size, sweep};
+use vertifleet_study::{Error, make_folder, size, sweep};
 
 use crate::report::{Files, Report};
 
@@ -70,8 +69,7 @@ pub fn check(folder: &Path, force: bool) -> Result<(), Error> {
     let missing =
         folder.ancestors().take_while(|path| !path.as_os_str().is_empty() && !path.exists());
     let missing: Vec<&Path> = missing.collect();
-    let made = fs::create_dir_all(folder)
-        .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause });
+    let made = make_folder(folder);
     for path in missing {
         // Another program may have put something into the folder by now; then it stays.
         let _ = fs::remove_dir(path);

@@ -2,7 +2,7 @@
 
 use vertifleet_export::{csv_table, typed_table};
 use vertifleet_picture::numbers::{counted, dollars, grouped, minutes, signed, typeset};
-use vertifleet_study::sweep::{CellSummary, SweepRecords, SweepReport, format_value};
+use vertifleet_study::sweep::{CellSummary, Sweep, SweepReport, format_value};
 
 use crate::figure;
 use crate::report::{DataFile, Files, Place, Report, Section, Table, stands};
@@ -13,7 +13,7 @@ use crate::sweep_tables::{self, Settings};
 const MOST_ROWS: usize = 40;
 
 /// The report of a sweep with its files.
-pub fn sweep<'a>(report: &'a SweepReport, records: &'a SweepRecords<'_>) -> Report<'a> {
+pub fn sweep<'a>(report: &'a SweepReport, sweep: &'a Sweep) -> Report<'a> {
     let effects = Section {
         title: "How profit follows the settings".to_owned(),
         notes: vec![
@@ -43,14 +43,14 @@ pub fn sweep<'a>(report: &'a SweepReport, records: &'a SweepRecords<'_>) -> Repo
                 smallest(report)
             ),
         ],
-        files: Files::Beside(files(report, records)),
+        files: Files::Beside(files(report, sweep)),
         ..Report::default()
     }
 }
 
-fn files<'a>(report: &'a SweepReport, records: &'a SweepRecords<'_>) -> Vec<DataFile<'a>> {
+fn files<'a>(report: &'a SweepReport, sweep: &'a Sweep) -> Vec<DataFile<'a>> {
     let cells = |settings| sweep_tables::cells(report, settings);
-    let days = |settings| sweep_tables::days(report, records, settings);
+    let days = |settings| sweep_tables::days(report, sweep, settings);
     vec![
         DataFile::new("cells.csv", "means", move || csv_table(&cells(Settings::AsGiven))),
         DataFile::new("cells.parquet", "the same", move || {

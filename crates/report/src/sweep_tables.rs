@@ -8,7 +8,7 @@ use serde_json::Value;
 use vertifleet_export::{Cells, TypedColumn};
 use vertifleet_sim::{DayNumber, DayTotals};
 
-use vertifleet_study::sweep::{CellResult, CellSummary, SweepRecords, SweepReport, format_value};
+use vertifleet_study::sweep::{CellResult, CellSummary, Sweep, SweepReport, format_value};
 
 /// How the settings of a table are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -94,13 +94,9 @@ struct DayRow<'a> {
 }
 
 /// One row for every cell, policy and day.
-pub(crate) fn days(
-    report: &SweepReport,
-    records: &SweepRecords<'_>,
-    settings: Settings,
-) -> Vec<TypedColumn> {
+pub(crate) fn days(report: &SweepReport, sweep: &Sweep, settings: Settings) -> Vec<TypedColumn> {
     let mut rows: Vec<DayRow<'_>> = Vec::new();
-    for record in records.played() {
+    for record in sweep.finished() {
         for (policy, days) in report.policies.iter().zip(&record.totals) {
             rows.extend(days.iter().enumerate().map(|(day, totals)| {
                 let upper_bound_usd = record.upper_bounds_usd.get(day).copied();

@@ -13,7 +13,7 @@ use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
 use crate::origin::NetworkOrigin;
 use crate::own_days::OwnDays;
-use crate::record::ComparisonRecords;
+use crate::record::{ComparisonRecords, PolicyRecord};
 use crate::replay;
 use crate::run::Kept;
 use crate::study::{Bounds, Study, Watch};
@@ -97,15 +97,19 @@ impl Comparison {
         stop: &Stop,
     ) -> Result<Self, Error> {
         let competitors = selection.resolve(network.name())?;
-        let scenarios = drawn.draw(network, stop)?;
-        let study = Study { kept: KEPT, ..Study::new(competitors, scenarios, bound_step)? };
-        Ok(Self {
+        let study = Study::new(competitors, drawn.draw(network, stop)?, bound_step)?;
+        Ok(Self::of_drawn(drawn, network, study))
+    }
+
+    /// The comparison of a study of these days of a network.
+    pub(crate) fn of_drawn(drawn: DrawnDays, network: &Network, study: Study) -> Self {
+        Self {
             network: network.name().to_owned(),
             origin: NetworkOrigin::of_all(network.name(), &study.scenarios),
             study,
             drawn: Some(drawn),
             days_from: None,
-        })
+        }
     }
 
     /// Takes the user's own days; with a `step`, each of them gets an upper bound.
@@ -120,12 +124,12 @@ impl Comparison {
     ) -> Result<Self, Error> {
         let competitors = selection.resolve(days.network())?;
         let (network, origin) = (days.network().to_owned(), days.origin());
-        let study = Study { kept: KEPT, ..Study::new(competitors, days.scenarios, bound_step)? };
+        let study = Study::new(competitors, days.scenarios, bound_step)?;
         Ok(Self { network, origin, study, drawn: None, days_from: Some(days.from) })
     }
 
     /// The days that will be played.
-    pub fn days(&self) -> impl Iterator<Item = &Scenario> {
+    pub fn days(&self) -> impl Iterator<Item = &Scenario> + Clone {
         self.study.days()
     }
 
@@ -148,15 +152,20 @@ impl Comparison {
         stop: &Stop,
         watch: &impl Watch,
     ) -> Result<ComparisonRecords, Error> {
+        let mut policies = self.study.play(KEPT, stop, watch)?;
+        let replayed = replay::replayed(&self.study.scenarios, &mut policies);
+        Ok(ComparisonRecords { replayed, ..self.records(policies, command) })
+    }
+
+    /// The records of policies that have played all days.
+    pub(crate) fn records(self, policies: Vec<PolicyRecord>, command: String) -> ComparisonRecords {
         let Self { network, origin, study, drawn, days_from } = self;
-        let mut policies = study.play(stop, watch)?;
-        let replayed = replay::replayed(&study.scenarios, &mut policies);
         // The learning curve of a policy trained on another network says nothing about these days,
         // and no policy was trained on the user's own days.
         let is_at_home =
             |competitor: &&Competitor| days_from.is_none() && competitor.was_trained_on(&network);
         let at_home = || study.competitors.iter().filter(is_at_home);
-        Ok(ComparisonRecords {
+        ComparisonRecords {
             curves: at_home().filter_map(Competitor::learning_curve).collect(),
             trainings: at_home().filter_map(Competitor::validation_curves).collect(),
             network,
@@ -171,7 +180,7 @@ impl Comparison {
             },
             command,
             policies,
-            replayed,
-        })
+            replayed: Vec::new(),
+        }
     }
 }

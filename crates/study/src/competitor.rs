@@ -4,14 +4,14 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use vertifleet_core::{Scenario, Stop};
+use vertifleet_core::{Network, Scenario, Stop};
 use vertifleet_optimize::{Budget, SearchSettings, plan, steps_of_equal_work};
 use vertifleet_picture::numbers::grouped;
 use vertifleet_sim::Trace;
 
 use crate::error::Error;
 use crate::policy_spec::{PolicySource, PolicySpec, ResolveFor};
-use crate::record::{LearningCurve, ValidationCurves};
+use crate::record::{DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves};
 use crate::resolved_policy::ResolvedPolicy;
 use crate::sees::Sees;
 use crate::starting_policies::starting_policies;
@@ -22,6 +22,7 @@ use crate::starting_policies::starting_policies;
 const PLAN_STEPS: u64 = 200_000;
 
 /// A policy or the planner, with its name in the study.
+#[derive(Clone)]
 pub struct Competitor {
     /// Its name, which is unique in the study.
     pub name: String,
@@ -29,6 +30,7 @@ pub struct Competitor {
 }
 
 /// How a competitor decides.
+#[derive(Clone)]
 pub(crate) enum Kind {
     /// It decides while the day is played.
     Policy(ResolvedPolicy),
@@ -135,6 +137,34 @@ impl Competitor {
         }
     }
 
+    /// The same competitor for days of this network, which a policy of the user's own may look at.
+    ///
+    /// # Errors
+    /// Returns the error of a policy of the user's own that cannot play days of this network.
+    pub(crate) fn on(&self, network: &Network) -> Result<Self, Error> {
+        let mut competitor = self.clone();
+        if let Kind::Policy(ResolvedPolicy::Own(factory)) = &mut competitor.kind {
+            *factory = (factory.on)(network)?;
+        }
+        Ok(competitor)
+    }
+
+    /// Its record of days that it has played.
+    pub(crate) fn record(
+        &self,
+        days: Vec<DayRecord>,
+        decision_ns: Option<LatencySummary>,
+    ) -> PolicyRecord {
+        PolicyRecord {
+            name: self.name.clone(),
+            description: self.description(),
+            sees: self.sees(),
+            weights_sha256: self.weights_sha256(),
+            days,
+            decision_ns,
+        }
+    }
+
     pub(crate) fn policy(&self) -> Option<&ResolvedPolicy> {
         match &self.kind {
             Kind::Policy(policy) => Some(policy),
@@ -155,6 +185,14 @@ impl Competitor {
                 "knows the day beforehand and searches for its best schedule, on `paper` in {} steps",
                 grouped(*paper_steps as f64, 0)
             ),
+        }
+    }
+
+    /// What tells it from other competitors of its name, besides its weights.
+    pub(crate) fn identity(&self) -> String {
+        match &self.kind {
+            Kind::Policy(ResolvedPolicy::Own(factory)) => factory.identity.clone(),
+            Kind::Policy(_) | Kind::Planner(_) => self.description(),
         }
     }
 

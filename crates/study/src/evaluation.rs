@@ -55,7 +55,7 @@ impl Evaluation {
         let (competitors, left_out) = select(&suite, selection, &days)?;
         let study = Study::new(competitors, scenarios, bounds)?;
         let hashes = days.into_iter().map(|day| day.hash).collect();
-        Ok(Self { suite, hashes, study: Study { kept: Kept::Choices, ..study }, left_out })
+        Ok(Self { suite, hashes, study, left_out })
     }
 
     /// Plays all days with every policy; `command` is the command line that the results record.
@@ -69,7 +69,7 @@ impl Evaluation {
         stop: &Stop,
         watch: &impl Watch,
     ) -> Result<EvaluationRecords, Error> {
-        let policies = self.study.play(stop, watch)?;
+        let policies = self.study.play(Kept::Choices, stop, watch)?;
         let Self { suite, hashes, left_out, .. } = self;
         Ok(EvaluationRecords { suite, command, hashes, policies, left_out })
     }

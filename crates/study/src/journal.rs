@@ -29,6 +29,15 @@ pub(crate) struct Head {
     pub(crate) study: String,
 }
 
+/// Makes the folder of a study, if it is not there.
+///
+/// # Errors
+/// Returns [`Error::CannotMakeFolder`].
+pub fn make_folder(folder: &Path) -> Result<(), Error> {
+    let cannot = |cause| Error::CannotMakeFolder { path: folder.to_owned(), cause };
+    fs::create_dir_all(folder).map_err(cannot)
+}
+
 /// The fingerprint of a study: a number that changes when anything changes that `depends_on` names.
 pub(crate) fn fingerprint(depends_on: &serde_json::Value) -> String {
     let mut hasher = SipHasher13::new();
@@ -150,7 +159,12 @@ mod tests {
 
     fn record(cell: usize) -> CellRecord {
         let day = DayTotals { profit_usd: 0.1 + cell as f64 / 3.0, ..DayTotals::default() };
-        CellRecord { cell, upper_bounds_usd: vec![1.0 / 7.0], totals: vec![vec![day]] }
+        CellRecord {
+            cell,
+            upper_bounds_usd: vec![1.0 / 7.0],
+            totals: vec![vec![day]],
+            decision_ns: Vec::new(),
+        }
     }
 
     fn open(folder: &Path, study: &str, fresh: bool) -> Result<(Journal, Vec<CellRecord>), Error> {

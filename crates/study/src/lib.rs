@@ -35,7 +35,6 @@ pub mod evaluation;
 pub mod explain;
 mod journal;
 mod kept_bounds;
-mod kept_comparisons;
 pub mod network_overview;
 mod origin;
 mod own_days;
@@ -56,15 +55,15 @@ pub mod sweep;
 
 pub use comparison::ComparisonReport;
 pub use error::Error;
+pub use journal::make_folder;
 pub use kept_bounds::KeptBounds;
-pub use kept_comparisons::{KeptComparison, KeptComparisons};
 pub use origin::NetworkOrigin;
 pub use own_days::OwnDays;
 pub use policy_spec::{PolicySource, PolicySpec, ResolveFor};
 pub use record::{
     ComparisonRecords, DayRecord, LatencySummary, LearningCurve, PolicyRecord, ValidationCurves,
 };
-pub use resolved_policy::{PolicyFactory, ResolvedPolicy};
+pub use resolved_policy::{OnNetwork, PolicyFactory, ResolvedPolicy};
 pub use sees::Sees;
 pub use share::PolicyShare;
 pub use starting_policies::starting_policies;

@@ -4,7 +4,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use vertifleet_core::{Scenario, Stop};
+use vertifleet_core::{Network, Scenario, Stop};
 use vertifleet_learn::{Curve, Model, Observation};
 use vertifleet_optimize::Rolling;
 use vertifleet_picture::numbers::grouped;
@@ -45,11 +45,18 @@ pub enum ResolvedPolicy {
     },
 }
 
+/// Makes the factory of policies for days of a network.
+pub type OnNetwork = dyn Fn(&Network) -> Result<PolicyFactory, Error> + Send + Sync;
+
 /// Makes policies, one for each thread that needs one.
 #[derive(Clone)]
 pub struct PolicyFactory {
+    /// What tells them from other policies of the user's own, in the journal of a sweep.
+    pub identity: String,
     /// Makes one.
     pub make: Arc<dyn Fn() -> Box<dyn Policy> + Send + Sync>,
+    /// Makes the factory of the same policies for days of another network.
+    pub on: Arc<OnNetwork>,
     /// What the policies look at.
     pub sees: Sees,
     /// Whether they are asked about many days at once, by [`Policy::choose_batch`].

@@ -83,14 +83,7 @@ pub(crate) fn play_all(
         }
         Kind::Planner(planner) => (play_plans(name, planner, days, kept, stop, played)?, None),
     };
-    Ok(PolicyRecord {
-        name: name.clone(),
-        description: competitor.description(),
-        sees: competitor.sees(),
-        weights_sha256: competitor.weights_sha256(),
-        days,
-        decision_ns,
-    })
+    Ok(competitor.record(days, decision_ns))
 }
 
 /// Plays all days with a policy that decides while they are played, one policy per thread, and

@@ -15,7 +15,6 @@ mod solver;
 mod space;
 mod summary;
 
-use std::fs;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -25,7 +24,7 @@ use vertifleet_optimize::Step;
 use crate::comparison::DrawnDays;
 use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
-use crate::journal::{Head, Journal, fingerprint};
+use crate::journal::{Head, Journal, fingerprint, make_folder};
 use crate::sweep::Factor;
 
 use search::{Aim, search};
@@ -153,8 +152,7 @@ impl Sizing {
         stop: &Stop,
         played: &mut dyn FnMut(),
     ) -> Result<SizeRecords, Error> {
-        fs::create_dir_all(folder)
-            .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })?;
+        make_folder(folder)?;
         let head = Head { format: journal::FORMAT.to_owned(), study: self.fingerprint.clone() };
         let (journal, parts) = Journal::open(&folder.join(JOURNAL), &head, force, |_| true)?;
         let mut solver = KnownDesigns::new(self, &journal, parts, stop, played);

@@ -65,7 +65,6 @@ pub(crate) struct Study {
     pub(crate) competitors: Vec<Competitor>,
     pub(crate) scenarios: Vec<Arc<Scenario>>,
     pub(crate) bounds: Bounds,
-    pub(crate) kept: Kept,
 }
 
 impl Study {
@@ -83,17 +82,22 @@ impl Study {
         for scenario in &scenarios {
             competitors.iter().try_for_each(|competitor| competitor.check_fits(scenario))?;
         }
-        Ok(Self { competitors, scenarios, bounds: bounds.into(), kept: Kept::Totals })
+        Ok(Self { competitors, scenarios, bounds: bounds.into() })
     }
 
-    pub(crate) fn days(&self) -> impl Iterator<Item = &Scenario> {
+    pub(crate) fn days(&self) -> impl Iterator<Item = &Scenario> + Clone {
         self.scenarios.iter().map(Arc::as_ref)
     }
 
     /// Bounds all days, if bounds are asked for, and plays them with every competitor, one
     /// competitor after the other.
-    pub(crate) fn play(&self, stop: &Stop, watch: &impl Watch) -> Result<Vec<PolicyRecord>, Error> {
-        let Self { competitors, scenarios, bounds, kept } = self;
+    pub(crate) fn play(
+        &self,
+        kept: Kept,
+        stop: &Stop,
+        watch: &impl Watch,
+    ) -> Result<Vec<PolicyRecord>, Error> {
+        let Self { competitors, scenarios, bounds } = self;
         let (number, scenarios) = (scenarios.len(), scenarios.clone());
         let days = match bounds {
             Bounds::Prove(slices) => {
@@ -104,7 +108,7 @@ impl Study {
         };
         let play = |(at, competitor): (usize, &Competitor)| {
             let played = watch.policy(&competitor.name, at + 1, competitors.len(), number);
-            let record = play_all(competitor, &days, *kept, stop, &played)?;
+            let record = play_all(competitor, &days, kept, stop, &played)?;
             watch.played(&record);
             Ok(record)
         };

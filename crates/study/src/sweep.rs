@@ -11,25 +11,25 @@ mod additive;
 mod cell;
 mod design;
 mod effects;
-mod played;
 mod record;
 mod summary;
 
 use std::collections::HashSet;
-use std::fs;
 use std::path::Path;
+use std::sync::OnceLock;
 
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 use serde_json::{Value, json};
 use vertifleet_core::{Network, OutputKind, Scenario, Stop, write_atomically};
 use vertifleet_optimize::Step;
 
-use crate::comparison::DrawnDays;
+use crate::comparison::{Comparison, DrawnDays};
 use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
 use crate::journal::{self, Head, Journal, fingerprint};
-use crate::kept_bounds::KeptBounds;
-use crate::run::{BoundedDay, Kept, play_all};
+use crate::record::ComparisonRecords;
+use crate::run::Kept;
+use crate::study::{Study, Unwatched};
 
 pub use cell::Cell;
 pub use design::{Design, Factor, Levels, MOST_CELLS, format_value};
@@ -61,19 +61,20 @@ pub struct SweepRequest<'a> {
     pub bound_step: Option<Step>,
 }
 
-/// The cells of a design, and the competitors that will play their days. Everything that can be
-/// checked beforehand has been checked.
+/// The cells of a design, the competitors that play their days, and the records of the cells that
+/// are finished. Everything that can be checked beforehand has been checked.
 pub struct Sweep {
     base: Network,
     factors: Vec<Factor>,
     cells: Vec<Cell>,
-    /// The names of the policies.
-    policies: Vec<String>,
-    /// The policies, where this program plays their days.
     competitors: Vec<Competitor>,
     drawn: DrawnDays,
     bound_step: Option<Step>,
-    fingerprint: String,
+    warnings: Vec<String>,
+    head: Head,
+    /// By cell.
+    finished: Vec<OnceLock<CellRecord>>,
+    journal: Option<Journal>,
 }
 
 impl Sweep {
@@ -83,7 +84,7 @@ impl Sweep {
     /// # Errors
     /// Returns an error if a factor leads nowhere or has a value that the format refuses, if there
     /// are too many cells, if there is no such policy, or if a policy cannot play the days.
-    pub fn new(request: SweepRequest<'_>) -> Result<Self, Error> {
+    pub fn new(request: SweepRequest<'_>, stop: &Stop) -> Result<Self, Error> {
         let SweepRequest { network, factors, design, selection, drawn, bound_step } = request;
         drawn.check()?;
         let competitors = selection.resolve(network.name())?;
@@ -95,18 +96,36 @@ impl Sweep {
         let mut sweep = Self {
             base: network.clone(),
             factors,
+            finished: cells.iter().map(|_| OnceLock::new()).collect(),
             cells,
-            policies: competitors.iter().map(|one| one.name.clone()).collect(),
             competitors,
             drawn,
             bound_step,
-            fingerprint: String::new(),
+            warnings: Vec::new(),
+            head: Head { format: JOURNAL_FORMAT.to_owned(), study: String::new() },
+            journal: None,
         };
-        sweep.fingerprint = sweep.fingerprint();
-        if let Some(day) = sweep.first_day()? {
-            sweep.competitors.iter().try_for_each(|competitor| competitor.check_fits(&day))?;
-        }
+        sweep.head.study = sweep.fingerprint(selection.seed);
+        sweep.warnings = sweep.check(stop)?;
         Ok(sweep)
+    }
+
+    /// Checks that the competitors can play a day of every cell, and returns the warnings about
+    /// them, each once.
+    fn check(&self, stop: &Stop) -> Result<Vec<String>, Error> {
+        let first_day = DrawnDays { days: 1, ..self.drawn };
+        let warnings = |network: &&Network| -> Result<Vec<String>, Error> {
+            Ok(self.comparison_on(network, first_day, stop)?.warnings().collect())
+        };
+        let networks: Vec<&Network> = self.networks().collect();
+        let all = networks.par_iter().map(warnings).collect::<Result<Vec<_>, Error>>()?.concat();
+        let mut known = HashSet::new();
+        Ok(all.into_iter().filter(|warning| known.insert(warning.clone())).collect())
+    }
+
+    /// Warnings about what is allowed but probably not intended, as those of a comparison.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// The first day of the first cell that has a network, for warnings.
@@ -114,14 +133,40 @@ impl Sweep {
     /// # Errors
     /// Returns an error if there is no such day.
     pub fn first_day(&self) -> Result<Option<Scenario>, Error> {
-        let network = self.cells.iter().find_map(|cell| cell.network.as_ref().ok());
         let seed = self.drawn.seed(0)?;
-        Ok(network.map(|network| network.draw(seed)))
+        Ok(self.networks().next().map(|network| network.draw(seed)))
     }
 
-    /// Number of cells that will be played.
-    pub fn cells(&self) -> usize {
-        self.cells.iter().filter(|cell| cell.network.is_ok()).count()
+    /// The members of the network file that are varied.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        self.factors.iter().map(|factor| factor.path.as_str())
+    }
+
+    /// The cells, in the order of the design.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// The networks of the cells that are not left out.
+    fn networks(&self) -> impl Iterator<Item = &Network> {
+        self.cells.iter().filter_map(|cell| cell.network.as_deref().ok())
+    }
+
+    /// Number of cells that are not left out.
+    pub fn playable(&self) -> usize {
+        self.networks().count()
+    }
+
+    /// The numbers of the cells that are still to be played.
+    pub fn missing(&self) -> Vec<usize> {
+        let is_missing =
+            |&cell: &usize| self.cells[cell].network.is_ok() && self.finished[cell].get().is_none();
+        (0..self.cells.len()).filter(is_missing).collect()
+    }
+
+    /// The records of the finished cells, in the order of the design.
+    pub fn finished(&self) -> impl Iterator<Item = &CellRecord> {
+        self.finished.iter().filter_map(OnceLock::get)
     }
 
     /// Whether the design has every combination of the values of its factors, each as often as any
@@ -139,131 +184,130 @@ impl Sweep {
             && self.cells.len().is_multiple_of(combinations)
     }
 
-    /// A number that changes when anything changes that the results depend on.
-    fn fingerprint(&self) -> String {
+    /// A number that changes when anything changes that the results depend on. `seed` is that of
+    /// the policies.
+    fn fingerprint(&self, seed: u64) -> String {
         let settings: Vec<&Vec<Value>> = self.cells.iter().map(|cell| &cell.settings).collect();
-        let policies: Vec<Value> = self
-            .competitors
-            .iter()
-            .map(|one| json!([one.name, one.description(), one.weights_sha256()]))
-            .collect();
-        let text = json!({
+        let policy = |one: &Competitor| json!([one.name, one.identity(), one.weights_sha256()]);
+        let mut text = json!({
             "program": env!("CARGO_PKG_VERSION"),
             "network": self.base.toml(),
-            "factors": self.factors.iter().map(|factor| &factor.path).collect::<Vec<_>>(),
+            "factors": self.paths().collect::<Vec<_>>(),
             "cells": settings,
-            "names": self.policies,
-            "policies": policies,
+            "names": self.competitors.iter().map(|one| &one.name).collect::<Vec<_>>(),
+            "policies": self.competitors.iter().map(policy).collect::<Vec<_>>(),
             "days": [self.drawn.purpose.name(), self.drawn.first, self.drawn.days],
             "bound_step_s": self.bound_step.map(Step::seconds),
         });
+        // The program gives policies the seed of the first day, which is there already.
+        if seed != self.drawn.first {
+            text["policy_seed"] = json!(seed);
+        }
         fingerprint(&text)
     }
 
-    /// The head of the sweep's journal.
-    fn head(&self) -> Head {
-        Head { format: JOURNAL_FORMAT.to_owned(), study: self.fingerprint.clone() }
+    /// Keeps finished cells in the journal at this path from now on, and takes over those that it
+    /// holds. Returns their number. With `force`, the journal of another sweep is replaced.
+    ///
+    /// # Errors
+    /// Returns [`Error::OtherStudy`] if the journal belongs to another sweep, and [`Error::Core`]
+    /// if it cannot be read or written.
+    pub fn keep_in(&mut self, path: &Path, force: bool) -> Result<usize, Error> {
+        let days = self.drawn.days as usize;
+        let is_whole = |record: &CellRecord| {
+            record.totals.len() == self.competitors.len()
+                && record.totals.iter().all(|totals| totals.len() == days)
+        };
+        // What was damaged since is not believed, and neither is what follows it.
+        let is_new = |record: &CellRecord| {
+            let place = self.finished.get(record.cell);
+            is_whole(record) && place.is_some_and(|place| place.set(record.clone()).is_ok())
+        };
+        let (journal, found) = Journal::open(path, &self.head, force, is_new)?;
+        self.journal = Some(journal);
+        Ok(found.len())
     }
 
-    /// Plays the days of a cell; `None` if the cell has no network.
+    /// Plays all cells that are not finished, and keeps each as soon as it is. `played` is called
+    /// after each of them, from any thread.
     ///
     /// # Errors
     /// Returns [`Error::Stopped`] soon after `stop` is requested, and an error if a day is too
-    /// large for its bound or a policy cannot play one to its end.
-    pub fn play(&self, cell: usize, stop: &Stop) -> Result<Option<CellRecord>, Error> {
-        let Ok(network) = &self.cells[cell].network else { return Ok(None) };
-        let days = self.drawn.draw(network, stop)?;
-        let days: Vec<BoundedDay> = match self.bound_step {
-            Some(slices) => KeptBounds::of_this_user().days(days, slices, stop, &|| ())?,
-            None => days.into_iter().map(BoundedDay::unbounded).collect(),
-        };
-        let totals = |competitor: &Competitor| {
-            let policy = play_all(competitor, &days, Kept::Totals, stop, &|| ())?;
-            Ok(policy.days.iter().map(|day| day.totals).collect())
-        };
-        Ok(Some(CellRecord {
-            cell,
-            upper_bounds_usd: days.iter().filter_map(|day| day.upper_bound_usd).collect(),
-            totals: self.competitors.iter().map(totals).collect::<Result<_, Error>>()?,
-        }))
+    /// large for its bound, if a policy cannot play one to its end, or if the journal cannot be
+    /// written. Cells that were finished are kept.
+    pub fn run(&self, stop: &Stop, played: &(impl Fn() + Sync)) -> Result<(), Error> {
+        self.missing().par_iter().try_for_each(|&cell| {
+            let network = self.cells[cell].network.as_ref().expect("a missing cell has a network");
+            let study = self.study(network, self.drawn, stop)?;
+            self.add(CellRecord::of(cell, &study.play(Kept::Totals, stop, &Unwatched)?))?;
+            played();
+            Ok(())
+        })
     }
 
-    /// Plays all cells that the folder, which is made if it is not there, does not hold yet, and
-    /// keeps each as soon as it is finished. `begin` is called with the number of cells that were
-    /// there and of all cells; the function that it returns is called after each further one, from
-    /// any thread. With `force`, another sweep in the folder is replaced.
+    /// Adds a finished cell.
     ///
     /// # Errors
-    /// Returns [`Error::CannotMakeFolder`], [`Error::OtherStudy`] if the folder holds another
-    /// sweep, [`Error::Stopped`] soon after `stop` is requested, and the errors of
-    /// [`play`](Self::play). Cells that were finished are kept.
-    pub fn run<Played: Fn() + Sync>(
+    /// Returns [`Error::Core`] if the journal cannot be written.
+    pub fn add(&self, record: CellRecord) -> Result<(), Error> {
+        if let Some(journal) = &self.journal {
+            journal.add(&record)?;
+        }
+        // A cell that was added twice has the same record both times.
+        let _ = self.finished[record.cell].set(record);
+        Ok(())
+    }
+
+    fn study(&self, network: &Network, drawn: DrawnDays, stop: &Stop) -> Result<Study, Error> {
+        let competitors = self.competitors.iter().map(|competitor| competitor.on(network));
+        Study::new(
+            competitors.collect::<Result<_, Error>>()?,
+            drawn.draw(network, stop)?,
+            self.bound_step,
+        )
+    }
+
+    fn comparison_on(
         &self,
-        folder: &Path,
-        command: String,
-        force: bool,
+        network: &Network,
+        drawn: DrawnDays,
         stop: &Stop,
-        begin: impl FnOnce(usize, usize) -> Played,
-    ) -> Result<SweepRecords<'_>, Error> {
-        fs::create_dir_all(folder)
-            .map_err(|cause| Error::CannotMakeFolder { path: folder.to_owned(), cause })?;
-        let mut known = vec![false; self.cells.len()];
-        let is_new = |record: &CellRecord| {
-            known.get_mut(record.cell).is_some_and(|known| !std::mem::replace(known, true))
-        };
-        let (journal, found) = Journal::open(&folder.join(JOURNAL), &self.head(), force, is_new)?;
-        let mut records: Vec<Option<CellRecord>> = vec![None; self.cells.len()];
-        let played = begin(found.len(), self.cells());
-        for record in found {
-            let cell = record.cell;
-            records[cell] = Some(record);
-        }
-        let missing: Vec<usize> =
-            (0..records.len()).filter(|&cell| records[cell].is_none()).collect();
-        let play = |&cell: &usize| {
-            let record = self.play(cell, stop)?;
-            if let Some(record) = &record {
-                journal.add(record)?;
-                played();
-            }
-            Ok(record)
-        };
-        let fresh = missing.par_iter().map(play).collect::<Result<Vec<_>, Error>>()?;
-        for record in fresh.into_iter().flatten() {
-            let cell = record.cell;
-            records[cell] = Some(record);
-        }
-        Ok(self.records(records, command))
+    ) -> Result<Comparison, Error> {
+        Ok(Comparison::of_drawn(drawn, network, self.study(network, drawn, stop)?))
     }
 
-    /// The records of the whole sweep, made from those of its cells in the order of the design.
-    pub fn records(&self, records: Vec<Option<CellRecord>>, command: String) -> SweepRecords<'_> {
-        SweepRecords { sweep: self, records, command }
-    }
-}
-
-/// A sweep with the records of its cells.
-pub struct SweepRecords<'a> {
-    sweep: &'a Sweep,
-    /// By cell; `None` for a cell without a network.
-    records: Vec<Option<CellRecord>>,
-    command: String,
-}
-
-impl SweepRecords<'_> {
-    /// The records of the cells that were played, in the order of the design.
-    pub fn played(&self) -> impl Iterator<Item = &CellRecord> {
-        self.records.iter().flatten()
-    }
-
-    /// Writes the journal in the order of the cells, whole or not at all: the same sweep gives the
-    /// same bytes, however often it was interrupted.
+    /// A finished cell as the comparison on its network, with the warnings about it; `None` for a
+    /// cell that is not finished. `command` is the command line that the comparison records.
     ///
     /// # Errors
-    /// Returns [`Error::Core`] (V102) if the file cannot be written.
+    /// Returns [`Error::Stopped`] soon after `stop` is requested.
+    pub fn comparison(
+        &self,
+        cell: usize,
+        command: String,
+        stop: &Stop,
+    ) -> Result<Option<(ComparisonRecords, Vec<String>)>, Error> {
+        let (Ok(network), Some(record)) = (&self.cells[cell].network, self.finished[cell].get())
+        else {
+            return Ok(None);
+        };
+        let comparison = self.comparison_on(network, self.drawn, stop)?;
+        let warnings = comparison.warnings().collect();
+        let policies = record.policies(&self.competitors, &comparison.days());
+        Ok(Some((comparison.records(policies, command), warnings)))
+    }
+
+    /// Writes the finished cells as a journal into a folder, which is made if it is not there: in
+    /// the order of the cells, whole or not at all. The same sweep gives the same bytes, however
+    /// often it was interrupted.
+    ///
+    /// # Errors
+    /// Returns [`Error::CannotMakeFolder`], or [`Error::Core`] (V102) if the file cannot be
+    /// written.
     pub fn write_journal(&self, folder: &Path) -> Result<(), Error> {
-        let records: Vec<CellRecord> = self.played().cloned().collect();
-        let text = journal::text(&self.sweep.head(), &records);
+        journal::make_folder(folder)?;
+        let records: Vec<CellRecord> = self.finished().map(CellRecord::without_times).collect();
+        let text = journal::text(&self.head, &records);
         Ok(write_atomically(&folder.join(JOURNAL), text.as_bytes())?)
     }
 }

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
 from vertifleet._compare import ComparisonRequest, DrawnDays, network_of
-from vertifleet._kept import Parts
-from vertifleet._sweep import Sweep, call_of, played, together, variations
-from vertifleet.ray.tasks import play_missing
+from vertifleet._sweep import Sweep, begin, call_of, end
+from vertifleet.ray.tasks import played
 
 if TYPE_CHECKING:
     import os
@@ -60,9 +60,9 @@ def compare(
     request = ComparisonRequest.of(
         "vertifleet.ray.compare", policies, drawn, models, bound, step, policy_seed
     )
-    parts = Parts(drawn)
-    play_missing([network], request, parts, days_per_task)
-    return parts.joined(0)
+    request.check([network])
+    ((_, comparison),) = played({0: network}, request, drawn, days_per_task)
+    return comparison
 
 
 def sweep(
@@ -98,19 +98,22 @@ def sweep(
         step: length of the bound's slices in minutes.
         policy_seed: seed of the random policy and of the planner's search.
         days_per_task: number of consecutive days of a point that one task plays.
-        journal: a file on this machine in which the days of every finished task are kept, as in
+        journal: a file on this machine in which every finished point is kept, as in
             :func:`vertifleet.sweep`. It may be a file that a sweep without Ray has begun.
 
     Raises:
         Error: as :func:`vertifleet.sweep`; V409 if a node has another version of the package.
     """
     network, drawn = network_of(network), DrawnDays.of(days, seed, split)
-    cells = variations(network, changes, latin, drawn)
-    points = played(cells)
     request = ComparisonRequest.of(
         "vertifleet.ray.compare", policies, drawn, models, bound, step, policy_seed
     )
-    parts = Parts.open(journal, network, [changes for changes, _ in points], request, drawn)
-    play_missing([variation for _, variation in points], request, parts, days_per_task)
-    call = call_of("vertifleet.ray.sweep", network, changes, latin, request)
-    return Sweep(network.name, request.policies, together(cells, parts), varied=network, command=call)
+    native = begin(network, changes, latin, request, journal)
+    missing = {cell: native.network(cell) for cell in native.missing()}
+    said: dict[str, None] = {}
+    for cell, comparison in played(missing, request, drawn, days_per_task):
+        native.add(cell, comparison)
+        said.update(dict.fromkeys(comparison.warnings))
+    for text in said.keys() - native.warnings:
+        warnings.warn(text, stacklevel=2)
+    return end(native, network, request, call_of("vertifleet.ray.sweep", network, changes, latin, request))

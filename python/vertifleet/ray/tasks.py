@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections import Counter, defaultdict
 from dataclasses import replace
 from importlib.metadata import version
 from typing import TYPE_CHECKING
@@ -16,17 +17,17 @@ import ray
 from ray.exceptions import RayTaskError
 
 from vertifleet import Comparison, Error, Model
+from vertifleet._compare import DrawnDays
 from vertifleet.ray.progress import Progress
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Iterator, Mapping
     from typing import TypeAlias
 
     from ray import ObjectRef
 
     from vertifleet import Network
-    from vertifleet._compare import ComparisonRequest, DrawnDays, PolicySource
-    from vertifleet._kept import Parts
+    from vertifleet._compare import ComparisonRequest, PolicySource
 
     Flying: TypeAlias = ObjectRef[Comparison]
     """A task that has been sent off."""
@@ -61,10 +62,13 @@ def play(request: ComparisonRequest, here: str, network: Network, days: DrawnDay
     return request.compare(network, 1, days)
 
 
-def play_missing(
-    networks: Sequence[Network], request: ComparisonRequest, parts: Parts, days_per_task: int | None
-) -> None:
-    """Plays the days of each of the networks that `parts` does not have yet, and adds them to it.
+def played(
+    networks: Mapping[int, Network],
+    request: ComparisonRequest,
+    drawn: DrawnDays,
+    days_per_task: int | None,
+) -> Iterator[tuple[int, Comparison]]:
+    """Plays the days of each of the networks, and yields its number and its comparison when they are over.
 
     After an error or Ctrl-C, no task is begun. Tasks in flight then run to their end in the background:
     `ray.cancel` of a task that ends at the same time can crash this whole process (seen with Ray 2.60, "Tried
@@ -72,38 +76,40 @@ def play_missing(
     """
     if days_per_task is not None and days_per_task < 1:
         raise Error("V451", f"days_per_task must be at least 1, found {days_per_task}")
-    request = without_files(request)
-    request.check(networks, stacklevel=4)
     if not ray.is_initialized():
         ray.init()
-    tasks = _tasks(networks, parts, days_per_task)
-    here, shared, sent = version("vertifleet"), list(map(ray.put, networks)), ray.put(request)
+    tasks = _tasks(networks, drawn, days_per_task)
+    shared = {number: ray.put(network) for number, network in networks.items()}
+    here, sent = version("vertifleet"), ray.put(without_files(request))
     playing: dict[Flying, Task] = {}
+    parts: defaultdict[int, dict[int, Comparison]] = defaultdict(dict)
+    missing = Counter(network for network, _ in tasks)
     begun = days_played = 0
     with Progress(sum(days.days for _, days in tasks)) as progress:
         while begun < len(tasks) or playing:
-            for point, days in tasks[begun : begun + _room(len(playing))]:
-                flying = play.remote(sent, here, shared[point], days)
-                playing[flying] = point, days
+            for network, days in tasks[begun : begun + _room(len(playing))]:
+                flying = play.remote(sent, here, shared[network], days)
+                playing[flying] = network, days
                 begun += 1
             done, _ = ray.wait(list(playing), timeout=GLANCE_S)
             for flying in done:
-                point, days = playing.pop(flying)
-                parts.add(point, days, _result(flying))
+                network, days = playing.pop(flying)
+                parts[network][days.seed] = _result(flying)
                 days_played += days.days
+                missing[network] -= 1
+                if not missing[network]:
+                    yield network, Comparison.join([part for _, part in sorted(parts.pop(network).items())])
             progress.show(days_played)
 
 
-def _tasks(networks: Sequence[Network], parts: Parts, days_per_task: int | None) -> list[Task]:
-    """What is missing, in tasks; by default there are so many of them that every CPU gets TASKS_PER_CPU."""
-
-    def tasks(most: int) -> list[Task]:
-        return [(point, days) for point in range(len(networks)) for days in parts.missing(point, most)]
-
-    if days_per_task is None:
-        missing = sum(days.days for _, days in tasks(parts.days_each))
-        days_per_task = max(math.ceil(missing / (TASKS_PER_CPU * _cpus())), 1)
-    return tasks(days_per_task)
+def _tasks(networks: Collection[int], drawn: DrawnDays, days_per_task: int | None) -> list[Task]:
+    """The days of these networks, in tasks; by default there are so many of them that every CPU gets
+    TASKS_PER_CPU.
+    """
+    each = days_per_task or max(math.ceil(len(networks) * drawn.days / (TASKS_PER_CPU * _cpus())), 1)
+    end = drawn.seed + drawn.days
+    days = [DrawnDays(min(each, end - first), first, drawn.split) for first in range(drawn.seed, end, each)]
+    return [(network, part) for network in networks for part in days]
 
 
 def _room(playing: int) -> int:

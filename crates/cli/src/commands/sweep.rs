@@ -9,7 +9,8 @@ use vertifleet_progress::Bar;
 use vertifleet_report::folder;
 use vertifleet_study::comparison::DrawnDays;
 use vertifleet_study::competitor::Selection;
-use vertifleet_study::sweep::{Design, Sweep, SweepReport, SweepRequest};
+use vertifleet_study::make_folder;
+use vertifleet_study::sweep::{Design, JOURNAL, Sweep, SweepReport, SweepRequest};
 
 use crate::args::SweepArguments;
 use crate::commands::{command, find_network, reads_models, warn_of_demand, warn_unserved_days};
@@ -26,7 +27,9 @@ pub(crate) fn run(arguments: &SweepArguments) -> Result<ExitCode, Failure> {
     outputs.replaces_folder(&arguments.out)?;
     check_folder(&arguments.out, &folder::SWEEP, arguments.force)?;
     let selection = Selection { policies, models, seed: arguments.seed };
-    let sweep = Sweep::new(SweepRequest {
+    // Ctrl-C ends the program itself; the cells that are finished are on the disk.
+    let (never, folder) = (Stop::default(), &arguments.out);
+    let request = SweepRequest {
         network: &network,
         factors: arguments.vary.clone(),
         design: match arguments.latin {
@@ -36,22 +39,22 @@ pub(crate) fn run(arguments: &SweepArguments) -> Result<ExitCode, Failure> {
         selection: &selection,
         drawn: DrawnDays { purpose: arguments.split, first: arguments.seed, days: arguments.days },
         bound_step: arguments.bound.then(|| Step::from_minutes(arguments.step)).transpose()?,
-    })?;
+    };
+    let mut sweep = Sweep::new(request, &never)?;
     warn_of_demand(&network);
     warn_unserved_days(sweep.first_day()?.as_ref());
-    // Ctrl-C ends the program itself; the cells that are finished are on the disk.
-    let (stop, folder) = (Stop::default(), &arguments.out);
-    let records = sweep.run(folder, command(), arguments.force, &stop, |done, all| {
-        if done > 0 {
-            eprintln!("{done} of {all} cells were there already");
-        }
-        let bar = Bar::new(all as u64, "cells");
-        bar.already_done(done as u64);
-        move || bar.advance(1)
-    })?;
-    let summary = SweepReport::of(&records)?;
-    let report = vertifleet_report::sweep(&summary, &records);
-    records.write_journal(folder)?;
+    make_folder(folder)?;
+    let (done, all) = (sweep.keep_in(&folder.join(JOURNAL), arguments.force)?, sweep.playable());
+    if done > 0 {
+        eprintln!("{done} of {all} cells were there already");
+    }
+    let bar = Bar::new(all as u64, "cells");
+    bar.already_done(done as u64);
+    sweep.run(&never, &|| bar.advance(1))?;
+    drop(bar);
+    let summary = SweepReport::of(&sweep, command())?;
+    let report = vertifleet_report::sweep(&summary, &sweep);
+    sweep.write_journal(folder)?;
     let page = folder::write_beside_journal(&report, folder)?;
     print(&if arguments.json { summary.to_json() } else { report.text() })?;
     eprintln!("report: {}", page.display());

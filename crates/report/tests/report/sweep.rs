@@ -31,14 +31,15 @@ fn paper() -> Network {
 fn sweep(factors_of: &[&str], design: Design, days: u32) -> Result<Sweep, vertifleet_study::Error> {
     let policies = ["greedy", "prices"].map(str::to_owned);
     let selection = Selection { policies: &policies, models: &[], seed: 1 };
-    Sweep::new(SweepRequest {
+    let request = SweepRequest {
         network: &paper(),
         factors: factors(factors_of),
         design,
         selection: &selection,
         drawn: DrawnDays::of_comparison(7, days),
         bound_step: None,
-    })
+    };
+    Sweep::new(request, &Stop::default())
 }
 
 /// The files of a folder by name.
@@ -50,13 +51,13 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     fs::read_dir(folder).expect("a folder").map(|one| entry(one.expect("an entry"))).collect()
 }
 
-fn run(sweep: &Sweep, folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let stop = Stop::default();
-    let records = sweep.run(folder, "vertifleet sweep".to_owned(), false, &stop, |_, _| || ());
-    let records = records.expect("all cells");
-    let summary = SweepReport::of(&records).expect("numbers");
-    records.write_journal(folder).expect("room");
-    let report = vertifleet_report::sweep(&summary, &records);
+/// Plays what the journal of the folder lacks, and returns the files of the folder.
+fn run(mut sweep: Sweep, folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    sweep.keep_in(&folder.join(JOURNAL), false).expect("a journal");
+    sweep.run(&Stop::default(), &|| ()).expect("all cells");
+    let summary = SweepReport::of(&sweep, "vertifleet sweep".to_owned()).expect("numbers");
+    sweep.write_journal(folder).expect("room");
+    let report = vertifleet_report::sweep(&summary, &sweep);
     vertifleet_report::folder::write_beside_journal(&report, folder).expect("room");
     files(folder)
 }
@@ -64,8 +65,10 @@ fn run(sweep: &Sweep, folder: &Path) -> BTreeMap<String, Vec<u8>> {
 #[test]
 fn a_cell_is_the_changed_network_on_the_days_of_its_base() {
     let sweep = sweep(&FACTORS, Design::Grid, 3).expect("a sweep");
-    assert_eq!(sweep.cells(), 5, "40 stands are too few for 42 aircraft");
-    let record = sweep.play(3, &Stop::default()).expect("it can be played").expect("a network");
+    assert_eq!(sweep.playable(), 5, "40 stands are too few for 42 aircraft");
+    assert_eq!(sweep.missing(), [0, 1, 2, 3, 5]);
+    sweep.run(&Stop::default(), &|| ()).expect("all cells");
+    let record = sweep.finished().find(|record| record.cell == 3).expect("it was played");
     let changes = serde_json::json!({"fleet.0.count": 40, "vertiports.*.stands": 6});
     let network = paper().changed(changes.as_object().expect("changes")).expect("a network");
     for (at, totals) in record.totals[0].iter().enumerate() {
@@ -78,14 +81,20 @@ fn a_cell_is_the_changed_network_on_the_days_of_its_base() {
         assert_eq!(*totals, simulation.totals());
         assert_eq!((totals.aircraft_cost_usd, totals.site_cost_usd), (8_000.0, 4_800.0));
     }
-    assert!(sweep.play(4, &Stop::default()).expect("no network").is_none());
+    assert!(sweep.missing().is_empty());
+    let comparison = sweep.comparison(3, String::new(), &Stop::default()).expect("days");
+    let (records, _) = comparison.expect("it was played");
+    assert_eq!(records.policies[0].days[2].day, "paper-9");
+    assert_eq!(records.policies[0].days[2].totals, record.totals[0][2]);
+    assert!(records.policies[0].decision_ns.is_some());
+    assert!(sweep.comparison(4, String::new(), &Stop::default()).expect("no days").is_none());
 }
 
 #[test]
 fn an_interrupted_sweep_ends_with_the_same_bytes() {
     let whole = tempfile::tempdir().expect("a folder");
-    let sweep = sweep(&FACTORS, Design::Grid, 2).expect("a sweep");
-    let expected = run(&sweep, whole.path());
+    let sweep = || sweep(&FACTORS, Design::Grid, 2).expect("a sweep");
+    let expected = run(sweep(), whole.path());
     let journal = &expected[JOURNAL];
     for kept in [0, 10, journal.len() / 3, journal.len() / 2, journal.len() - 1] {
         let folder = tempfile::tempdir().expect("a folder");
@@ -94,45 +103,62 @@ fn an_interrupted_sweep_ends_with_the_same_bytes() {
         let head = journal.iter().position(|&byte| byte == b'\n').expect("a line") + 1;
         let kept = if kept == 0 { 0 } else { kept.max(head) };
         fs::write(folder.path().join(JOURNAL), &journal[..kept]).expect("room");
-        assert!(run(&sweep, folder.path()) == expected, "{kept} bytes were kept");
+        assert!(run(sweep(), folder.path()) == expected, "{kept} bytes were kept");
     }
     let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let folder = tempfile::tempdir().expect("a folder");
-    assert!(threads.install(|| run(&sweep, folder.path())) == expected, "on one thread");
+    assert!(threads.install(|| run(sweep(), folder.path())) == expected, "on one thread");
 }
 
 #[test]
 fn a_stopped_sweep_keeps_what_is_finished() {
     let folder = tempfile::tempdir().expect("a folder");
-    let sweep = sweep(&FACTORS, Design::Grid, 1).expect("a sweep");
+    let journal = folder.path().join(JOURNAL);
+    let begin = || {
+        let mut sweep = sweep(&FACTORS, Design::Grid, 1).expect("a sweep");
+        let found = sweep.keep_in(&journal, false).expect("a journal");
+        (sweep, found)
+    };
+    let (sweep, _) = begin();
     let stop = Stop::default();
     let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread");
     let outcome = threads.install(|| {
-        sweep.run(folder.path(), String::new(), false, &stop, |_, _| {
-            || {
-                stop.request();
-            }
+        sweep.run(&stop, &|| {
+            stop.request();
         })
     });
-    assert_eq!(outcome.err().expect("it was stopped").code().to_string(), "V408");
-    let mut seen = 0;
-    let records = sweep.run(folder.path(), String::new(), false, &Stop::default(), |done, all| {
-        seen = done;
-        assert_eq!(all, 5);
-        || ()
-    });
-    assert!(records.is_ok() && seen == 1, "{seen}");
+    assert_eq!(outcome.expect_err("it was stopped").code().to_string(), "V408");
+    let (sweep, found) = begin();
+    assert_eq!((found, sweep.missing().len()), (1, 4));
+    sweep.run(&Stop::default(), &|| ()).expect("the other cells");
+    assert!(sweep.missing().is_empty());
+}
+
+#[test]
+fn a_damaged_cell_is_not_believed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(JOURNAL);
+    let sweep = || sweep(&FACTORS, Design::Grid, 1).expect("a sweep");
+    run(sweep(), folder.path());
+    let text = fs::read_to_string(&path).expect("a journal");
+    let damaged = text.replacen("{\"cell\":2,", "{\"cell\":1,", 1);
+    assert_ne!(damaged, text);
+    fs::write(&path, damaged).expect("room");
+    assert_eq!(sweep().keep_in(&path, false).expect("a journal"), 2, "cell 1 is there twice");
+    let days = text.find("\"totals\":[[").expect("a record");
+    let end = text.find("]],").or_else(|| text.find("]]}")).expect("an end");
+    let damaged = format!("{}\"totals\":[[],[{}", &text[..days], &text[end..]);
+    fs::write(&path, damaged).expect("room");
+    assert_eq!(sweep().keep_in(&path, false).expect("a journal"), 0, "days are missing");
 }
 
 #[test]
 fn the_report_says_which_design_is_best_and_which_is_the_cheapest_good_one() {
     let factors = ["fleet.0.count=36..40/1", "vertiports.V1.stands=6,7"];
     let sweep = sweep(&factors, Design::Grid, 4).expect("a sweep");
-    let folder = tempfile::tempdir().expect("a folder");
-    let records = sweep.run(folder.path(), String::new(), false, &Stop::default(), |_, _| || ());
-    let records = records.expect("all cells");
-    let summary = SweepReport::of(&records).expect("numbers");
-    insta::assert_snapshot!(vertifleet_report::sweep(&summary, &records).text());
+    sweep.run(&Stop::default(), &|| ()).expect("all cells");
+    let summary = SweepReport::of(&sweep, String::new()).expect("numbers");
+    insta::assert_snapshot!(vertifleet_report::sweep(&summary, &sweep).text());
     let json: serde_json::Value = serde_json::from_str(&summary.to_json()).expect("JSON");
     let cells = json["cells"].as_array().expect("a list");
     let profit = |cell: &serde_json::Value| {
@@ -172,7 +198,7 @@ fn parquet_has_the_columns_and_the_rows_of_csv() {
         r#"closures=[],[{"start":"07:00:00","end":"09:00:00","vertiports":["V1"]}]"#,
     ];
     let folder = tempfile::tempdir().expect("a folder");
-    let files = run(&sweep(&factors, Design::Grid, 2).expect("a sweep"), folder.path());
+    let files = run(sweep(&factors, Design::Grid, 2).expect("a sweep"), folder.path());
     for table in ["cells", "days"] {
         let mut csv = csv::Reader::from_reader(&files[&format!("{table}.csv")][..]);
         let names: Vec<String> = csv.headers().expect("names").iter().map(str::to_owned).collect();
@@ -204,11 +230,9 @@ fn parquet_has_the_columns_and_the_rows_of_csv() {
 fn closures_can_be_varied() {
     let closed = r#"[{"start":"07:00:00","end":"12:00:00","vertiports":["V1"]}]"#;
     let sweep = sweep(&[&format!("closures=[],{closed}")], Design::Grid, 2).expect("a sweep");
-    let play = |cell| {
-        let record = sweep.play(cell, &Stop::default()).expect("it can be played");
-        record.expect("a network").totals
-    };
-    let (open, closed) = (play(0), play(1));
+    sweep.run(&Stop::default(), &|| ()).expect("all cells");
+    let totals: Vec<_> = sweep.finished().map(|record| &record.totals).collect();
+    let [open, closed] = totals[..] else { panic!("two cells, found {}", totals.len()) };
     assert_ne!(open, closed, "the closure matters");
     let (profit_usd, of_open_usd) = (closed[1][0].profit_usd, open[1][0].profit_usd);
     assert!(profit_usd < of_open_usd, "{profit_usd} {of_open_usd}");
@@ -222,7 +246,7 @@ fn what_cannot_be_swept_is_refused_before_anything_is_played() {
         (vec!["fleet.0.count=-1,2"], Design::Grid, "V104"),
         (vec!["fleet.0.count=1..2"], Design::Grid, "V407"),
         (vec!["fleet.0.count=1..2"], Design::LatinHypercube { cells: 1, seed: 1 }, "V407"),
-        (vec![], Design::Grid, "V407"),
+        (vec![], Design::LatinHypercube { cells: 2, seed: 1 }, "V407"),
     ];
     for (factors, design, code) in codes {
         let error = sweep(&factors, design, 1).err().expect("no sweep");

@@ -160,11 +160,11 @@ impl Design {
     /// The settings of every cell, in the order of the factors.
     ///
     /// # Errors
-    /// Returns [`Error::Asked`] if there are no factors or too many cells, if a path comes twice,
-    /// or if a grid has a range without steps.
+    /// Returns [`Error::Asked`] if there are too many cells, if a path comes twice, if a grid has a
+    /// range without steps, or if a Latin hypercube has no factors.
     pub fn cells(self, factors: &[Factor]) -> Result<Vec<Vec<Value>>, Error> {
         let asked = |rule: String, hint| Err(Error::Asked { rule, hint });
-        if factors.is_empty() {
+        if factors.is_empty() && self != Self::Grid {
             return asked(
                 "no setting is varied".to_owned(),
                 "name one and its values, as in fleet.0.count=30..50/5",
@@ -368,7 +368,8 @@ mod tests {
         let cells = Design::Grid.cells(&[factor("a=1,2"), factor("b=x,y,z")]).expect("a grid");
         let expected = json!([[1, "x"], [1, "y"], [1, "z"], [2, "x"], [2, "y"], [2, "z"]]);
         assert_eq!(json!(cells), expected);
-        for factors in [vec![], vec![factor("a=1..2")], vec![factor("a=1"), factor("a=2")]] {
+        assert_eq!(json!(Design::Grid.cells(&[]).expect("nothing is varied")), json!([[]]));
+        for factors in [vec![factor("a=1..2")], vec![factor("a=1"), factor("a=2")]] {
             assert!(Design::Grid.cells(&factors).is_err(), "{factors:?}");
         }
     }

@@ -54,16 +54,16 @@ pub(super) struct Effects {
 }
 
 impl Effects {
-    pub(super) fn of(sweep: &Sweep, records: &[Option<CellRecord>]) -> Self {
-        let played: Vec<&CellRecord> = records.iter().flatten().collect();
+    pub(super) fn of(sweep: &Sweep) -> Self {
+        let played: Vec<&CellRecord> = sweep.finished().collect();
         let is_grid = sweep.is_grid();
         let factors: Vec<Vec<Vec<usize>>> = (0..sweep.factors.len())
             .map(|factor| groups(sweep, factor, &played, is_grid))
             .collect();
         let unknown = 1 + factors.iter().map(|levels| levels.len() - 1).sum::<usize>();
-        let fitted = !(is_grid && played.len() == records.len()) && 2 * unknown <= played.len();
+        let fitted = !(is_grid && played.len() == sweep.cells.len()) && 2 * unknown <= played.len();
         let days = played[0].totals[0].len();
-        let by_policy: Vec<Vec<Vec<Vec<f64>>>> = (0..sweep.policies.len())
+        let by_policy: Vec<Vec<Vec<Vec<f64>>>> = (0..sweep.competitors.len())
             .map(|policy| {
                 let of_day = |day: usize| {
                     let profits = played.iter().map(|record| record.totals[policy][day].profit_usd);

@@ -6,10 +6,11 @@ use serde_json::Value;
 use vertifleet_optimize::Step;
 use vertifleet_sim::DayTotals;
 
+use super::Sweep;
+use super::cell::Cell;
 use super::design::format_value;
 use super::effects::{Effect, Effects};
 use super::record::{CellRecord, Size};
-use super::{Sweep, SweepRecords};
 use crate::error::Error;
 use crate::record::bound_share;
 use crate::statistics::{Estimate, mean};
@@ -104,19 +105,18 @@ pub struct CellResult {
 }
 
 impl SweepReport {
-    /// Computes the statistics.
+    /// Computes the statistics of the finished cells; `command` is the command line that the report
+    /// shows.
     ///
     /// # Errors
-    /// Returns [`Error::Empty`] if no cell was played.
-    pub fn of(records: &SweepRecords<'_>) -> Result<Self, Error> {
-        let SweepRecords { sweep, records, command } = records;
+    /// Returns [`Error::Empty`] if no cell is finished.
+    pub fn of(sweep: &Sweep, command: String) -> Result<Self, Error> {
         let days = sweep.drawn.days;
         let profits = |policy: usize, record: &CellRecord| -> Vec<f64> {
             record.totals[policy].iter().map(|day| day.profit_usd).collect()
         };
-        let played: Vec<(&CellRecord, Size, f64)> = records
-            .iter()
-            .flatten()
+        let played: Vec<(&CellRecord, Size, f64)> = sweep
+            .finished()
             .filter_map(|record| {
                 let network = sweep.cells[record.cell].network.as_ref().ok()?;
                 Some((record, Size::of(network), mean(&profits(0, record))))
@@ -126,7 +126,7 @@ impl SweepReport {
             .iter()
             .max_by(|one, other| one.2.total_cmp(&other.2).then(other.0.cell.cmp(&one.0.cell)));
         let Some(&(best, _, best_usd)) = best else {
-            return Err(Error::Empty { policies: sweep.policies.len(), days: 0 });
+            return Err(Error::Empty { policies: sweep.competitors.len(), days: 0 });
         };
         let enough_usd = best_usd - NEARLY * best_usd.abs();
         let good = played.iter().filter(|(_, _, profit_usd)| *profit_usd >= enough_usd);
@@ -137,10 +137,9 @@ impl SweepReport {
             cost.then(size(a).cmp(&size(b))).then(profit).then(one.cell.cmp(&other.cell))
         });
         let cheapest = cheapest.expect("the best cell is good").0.cell;
-        let cell = |(number, record): (usize, &Option<CellRecord>)| {
-            let cell = &sweep.cells[number];
-            let results = record.iter().flat_map(|record| {
-                (0..sweep.policies.len()).map(move |policy| result(sweep, policy, record, best))
+        let cell = |(number, cell): (usize, &Cell)| {
+            let results = sweep.finished[number].get().into_iter().flat_map(|record| {
+                (0..sweep.competitors.len()).map(move |policy| result(sweep, policy, record, best))
             });
             CellSummary {
                 cell: number,
@@ -150,24 +149,24 @@ impl SweepReport {
                 results: results.collect(),
             }
         };
-        let effects = Effects::of(sweep, records);
+        let effects = Effects::of(sweep);
         Ok(Self {
             format: FORMAT,
             program_version: env!("CARGO_PKG_VERSION"),
-            command: command.clone(),
+            command,
             network: sweep.base.name().to_owned(),
             first_day: sweep.drawn.first,
             split: sweep.drawn.purpose.name(),
             days,
             bound_step_s: sweep.bound_step.map(Step::seconds),
-            factors: sweep.factors.iter().map(|factor| factor.path.clone()).collect(),
-            policies: sweep.policies.clone(),
+            factors: sweep.paths().map(str::to_owned).collect(),
+            policies: sweep.competitors.iter().map(|one| one.name.clone()).collect(),
             best: best.cell,
             cheapest,
             effects: effects.all,
             effects_fitted: effects.fitted,
             is_grid: effects.is_grid,
-            cells: records.iter().enumerate().map(cell).collect(),
+            cells: sweep.cells.iter().enumerate().map(cell).collect(),
         })
     }
 
@@ -239,7 +238,7 @@ fn result(sweep: &Sweep, policy: usize, record: &CellRecord, best: &CellRecord) 
     let (carried, spilled) =
         (average(|day| day.passengers as f64), average(|day| day.spilled_passengers as f64));
     CellResult {
-        policy: sweep.policies[policy].clone(),
+        policy: sweep.competitors[policy].name.clone(),
         profit_usd: Estimate::of(&profits),
         minus_best_usd: (record.cell != best.cell).then(|| Estimate::of(&differences())),
         bound_share: (!shares.is_empty()).then(|| Estimate::of(&shares)),
