@@ -8,7 +8,8 @@ loss and in the steps of the program, and writes weights that the program decide
     vertifleet evaluate --policies gcaps-full --suite paper-100 --model gcaps-full=mine.safetensors
 
 A graph whose edges are observed (`--set adjacency=profit`) needs samples of a run with the same adjacency.
-After every pass the weights are written, and next to them the state from which the same call with `--resume` continues.
+After every pass the weights are written, and next to them the state from which the same call with
+`--resume` continues.
 """
 
 from __future__ import annotations

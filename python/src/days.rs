@@ -14,7 +14,7 @@ use crate::pickle::Reduced;
 /// The most vertiports, aircraft, types and periods of a random network.
 const RANDOM: Sizes = Sizes { vertiports: 30, aircraft: 150, types: 1, periods: 15 };
 
-/// Where days come from: given networks, or networks of which a new one is drawn for each day.
+/// Where days come from: given networks, or networks drawn for each day.
 /// Every number names a day.
 #[pyclass(frozen, module = "vertifleet._native")]
 #[derive(Clone)]
@@ -50,7 +50,7 @@ impl Days {
         Ok(Self { source, purpose })
     }
 
-    /// Whether a name stands for networks of which a new one is drawn for each day.
+    /// Whether a name stands for networks drawn for each day.
     #[staticmethod]
     fn are_drawn(name: &str) -> bool {
         name == "random" || name.starts_with(RANDOM_PLACES)

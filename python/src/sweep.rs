@@ -21,9 +21,9 @@ use crate::policy_source::OwnCalls;
 use crate::whole_number::WholeNumber;
 
 /// The cells of a sweep, and the results of those that are finished. The values of a path in
-/// `changes` are a list, or a text as the program's `--vary` takes it. With `latin`, this many cells
-/// are drawn with the seed of the days; otherwise every combination is one. Finished cells are kept
-/// in the file `journal`, and those that it holds are not played again.
+/// `changes` are a list, or a text as the program's `--vary` takes it. With `latin`, this many
+/// cells are drawn with the seed of the days; otherwise every combination is one. Finished cells
+/// are kept in the file `journal`, and those that it holds are not played again.
 #[pyclass(frozen, module = "vertifleet._native")]
 pub(crate) struct Sweep {
     study: Arc<sweep::Sweep>,

@@ -100,7 +100,7 @@ impl WorldArgument {
     }
 }
 
-/// Trains a policy on a network, or on networks of which a new one is drawn for each day. Ctrl-C
+/// Trains a policy on a network, or on networks drawn for each day. Ctrl-C
 /// ends the run with a checkpoint, from which `resume` continues it.
 #[pyfunction]
 #[pyo3(signature = (

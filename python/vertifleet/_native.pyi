@@ -519,11 +519,11 @@ def find_suite(name: str) -> tuple[str, str | None, list[Scenario], list[float],
 
 @final
 class Days:
-    """Where days come from: given networks, or networks of which a new one is drawn for each day. Every number names a day."""
+    """Where days come from: given networks, or networks drawn for each day. Every number names a day."""
     def __new__(cls, source: str | Sequence[Network], split: str) -> Days: ...
     @staticmethod
     def are_drawn(name: str) -> bool:
-        """Whether a name stands for networks of which a new one is drawn for each day."""
+        """Whether a name stands for networks drawn for each day."""
     @property
     def sizes(self) -> tuple[int, int, int, int]:
         """The most vertiports, aircraft, types and periods of a day."""
@@ -865,6 +865,6 @@ def train(
     threads: SupportsIndex | None = None,
     watch: Callable[[dict[str, Any]], object] | None = None,
 ) -> Training:
-    """Trains a policy on a network, or on networks of which a new one is drawn for each day. Ctrl-C ends the run
+    """Trains a policy on a network, or on networks drawn for each day. Ctrl-C ends the run
     with a checkpoint, from which `resume` continues it.
     """

@@ -34,7 +34,7 @@ def train(
     same call with ``resume=True`` continues from there, bit for bit as if the run had never stopped.
 
     Args:
-        network: the network, its name, or the path of its file; or networks of which a new one is drawn for each day,
+        network: the network, its name, or the path of its file; or networks drawn for each day,
             "random" or "random-places:8".
         policy: "gcaps", "mlp", "gcaps-x", "gcaps-full" or "mlp-full".
         out: folder for weights, learning curve, checkpoint and TensorBoard's events; it may hold runs of

@@ -15,7 +15,7 @@ NetworkChoice: TypeAlias = str | os.PathLike[str] | Network | Mapping[str, str]
 """A network, its name, the path of its file, or ``{"toml": text}`` with the text of its file."""
 
 NetworksChoice: TypeAlias = NetworkChoice | Iterable[NetworkChoice]
-"""A network, several of them, or the name of a kind of network, of which a new one is drawn for each day: "random", or
+"""A network, several of them, or the name of networks drawn for each day: "random", or
 "random-places:N" for the paper's network with N vertiports at random places."""
 
 

@@ -31,7 +31,7 @@ OF_THE_PAPER = ("gcaps", "mlp")
 """The policies that learn by PPO, on features that have scales; the others learn by imitation."""
 
 DRAWN = re.compile(r"random|random-places:\d+")
-"""The names of networks of which a new one is drawn for each day."""
+"""The names of networks drawn for each day."""
 
 
 def load(source: str | os.PathLike[str] | bytes) -> Twin:
@@ -72,7 +72,7 @@ def save(
         twin: the network of layers.
         path: path of the weight file.
         network: the network that the weights were trained on, its name or its path; for weights that fit any
-            number of vertiports also "random" or "random-places:N", for networks of which a new one is drawn for each day.
+            number of vertiports also "random" or "random-places:N", for networks drawn for each day.
         settings: the settings of the training run, with the members of ``vertifleet.settings("paper")``; for
             policies that learn by imitation, with those in the header of the shipped weights of ``gcaps-x``.
         seed: seed of the training run.
@@ -96,7 +96,7 @@ def save_trained(
     seed: int | None,
     steps: int,
 ) -> None:
-    """Like :func:`save`, for weights that were trained from scratch: the header of an earlier file is dropped."""
+    """Like :func:`save`, for weights trained from scratch: the header of an earlier file is dropped."""
     _write(twin, path, _new_header(twin, _arguments_text(twin, network, settings, seed, steps)))
 
 
@@ -127,7 +127,7 @@ def _of(header: Mapping[str, Any]) -> Twin:
 
 
 def _world(twin: Twin, network: str | os.PathLike[str] | Network | None) -> Network | str | None:
-    """The network that weights were trained on, or the name of the kind of network of which a new one was drawn for each day."""
+    """The network that weights were trained on, or the name of those drawn for each day."""
     if isinstance(network, str) and DRAWN.fullmatch(network) and twin.vertiports is None:
         return network
     return None if network is None else network_of(network)

@@ -180,7 +180,7 @@ class AsyncDay:
                 async with aclosing(self._connection.messages(asked)) as messages:
                     async for message in messages:
                         pauses = self._connection.pauses()
-                        # Other kinds are keep-alives, and `behind`: the missed events follow without a request.
+                        # Other kinds are keep-alives, and `behind`: the missed events follow.
                         if message.kind == "message":
                             event: TakenEvent = json.loads(message.text)
                             last = event["mark"]
@@ -263,7 +263,7 @@ class AsyncDay:
 
         Args:
             policy: the policy; without it, the day's.
-            seq: the number of an event; the answer is what was expected after this event, not what is expected now.
+            seq: the number of an event; the answer is what was expected after this event, not now.
                 0 is the morning.
             times: how times are written.
 

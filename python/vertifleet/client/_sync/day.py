@@ -181,7 +181,7 @@ class Day:
                 with closing(self._connection.messages(asked)) as messages:
                     for message in messages:
                         pauses = self._connection.pauses()
-                        # Other kinds are keep-alives, and `behind`: the missed events follow without a request.
+                        # Other kinds are keep-alives, and `behind`: the missed events follow.
                         if message.kind == "message":
                             event: TakenEvent = json.loads(message.text)
                             last = event["mark"]
@@ -264,7 +264,7 @@ class Day:
 
         Args:
             policy: the policy; without it, the day's.
-            seq: the number of an event; the answer is what was expected after this event, not what is expected now.
+            seq: the number of an event; the answer is what was expected after this event, not now.
                 0 is the morning.
             times: how times are written.
 
