@@ -16,7 +16,7 @@ use crate::own_days::OwnDays;
 use crate::record::{ComparisonRecords, PolicyRecord};
 use crate::replay;
 use crate::run::Kept;
-use crate::study::{Bounds, Study, Watch};
+use crate::study::{Study, Watch};
 
 pub use summary::{
     BoundSummary, ComparisonReport, FORMAT, PairedDifference, PolicySummary, TrainingSummary,
@@ -105,7 +105,7 @@ impl Comparison {
     pub(crate) fn of_drawn(drawn: DrawnDays, network: &Network, study: Study) -> Self {
         Self {
             network: network.name().to_owned(),
-            origin: NetworkOrigin::of_all(network.name(), &study.scenarios),
+            origin: NetworkOrigin::of_all(network.name(), &study.scenarios()),
             study,
             drawn: Some(drawn),
             days_from: None,
@@ -153,7 +153,7 @@ impl Comparison {
         watch: &impl Watch,
     ) -> Result<ComparisonRecords, Error> {
         let mut policies = self.study.play(KEPT, stop, watch)?;
-        let replayed = replay::replayed(&self.study.scenarios, &mut policies);
+        let replayed = replay::replayed(&self.study.scenarios(), &mut policies);
         Ok(ComparisonRecords { replayed, ..self.records(policies, command) })
     }
 
@@ -173,11 +173,8 @@ impl Comparison {
             seed: drawn.map(|drawn| drawn.first),
             split: drawn.map_or(Purpose::Comparison, |drawn| drawn.purpose),
             days_from,
-            days: study.scenarios.len(),
-            bound_step_s: match study.bounds {
-                Bounds::Prove(slices) => Some(slices.seconds()),
-                Bounds::None | Bounds::Known(_) => None,
-            },
+            days: study.days().count(),
+            bound_step_s: study.bound_step.map(Step::seconds),
             command,
             policies,
             replayed: Vec::new(),

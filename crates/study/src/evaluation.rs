@@ -5,15 +5,13 @@ mod result;
 mod summary;
 mod verify;
 
-use std::sync::Arc;
-
-use vertifleet_core::{Scenario, Stop};
+use vertifleet_core::Stop;
 
 use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
 use crate::record::PolicyRecord;
 use crate::run::Kept;
-use crate::study::{Bounds, Study, Watch};
+use crate::study::{Study, Watch};
 use crate::suite::{Suite, SuiteDay};
 
 pub use result::{RESULT, RESULT_FORMAT, ResultDay, ResultFile, ResultPolicy};
@@ -48,13 +46,10 @@ impl Evaluation {
     /// [`Error::Stopped`] soon after `stop` is requested.
     pub fn new(suite: Suite, selection: &Selection<'_>, stop: &Stop) -> Result<Self, Error> {
         let days = suite.draw(stop)?;
-        let scenarios: Vec<Arc<Scenario>> =
-            days.iter().map(|day| Arc::clone(&day.scenario)).collect();
-        let known: Option<Vec<f64>> = days.iter().map(|day| day.upper_bound_usd).collect();
-        let bounds = known.map_or(Bounds::Prove(suite.step()?), Bounds::Known);
         let (competitors, left_out) = select(&suite, selection, &days)?;
-        let study = Study::new(competitors, scenarios, bounds)?;
-        let hashes = days.into_iter().map(|day| day.hash).collect();
+        let hashes = days.iter().map(|day| day.hash.clone()).collect();
+        let bound_step = if suite.is_frozen() { None } else { Some(suite.step()?) };
+        let study = Study::new(competitors, days, bound_step)?;
         Ok(Self { suite, hashes, study, left_out })
     }
 

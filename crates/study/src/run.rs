@@ -27,17 +27,9 @@ pub(crate) struct BoundedDay {
     pub upper_bound_usd: Option<f64>,
 }
 
-impl BoundedDay {
-    /// A day without an upper bound.
-    pub(crate) fn unbounded(scenario: Arc<Scenario>) -> Self {
+impl From<Arc<Scenario>> for BoundedDay {
+    fn from(scenario: Arc<Scenario>) -> Self {
         Self { scenario, upper_bound_usd: None }
-    }
-
-    /// Days with these upper bounds, in dollars.
-    pub(crate) fn with_bounds(days: Vec<Arc<Scenario>>, bounds_usd: &[f64]) -> Vec<Self> {
-        let bounded =
-            |(scenario, &bound_usd): (_, &f64)| Self { scenario, upper_bound_usd: Some(bound_usd) };
-        days.into_iter().zip(bounds_usd).map(bounded).collect()
     }
 }
 
@@ -243,7 +235,7 @@ mod tests {
     fn a_run_that_is_stopped_says_so() {
         let network = Network::shipped("paper").expect("a shipped network");
         let day = network.draw(DaySeed::comparison(1).expect("a seed for comparison"));
-        let days = [BoundedDay::unbounded(Arc::new(day))];
+        let days = [BoundedDay::from(Arc::new(day))];
         let stop = Stop::default();
         stop.request();
         for competitor in competitors() {

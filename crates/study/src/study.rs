@@ -44,49 +44,39 @@ impl Watch for Unwatched {
     }
 }
 
-/// The upper bounds of the days.
-pub(crate) enum Bounds {
-    /// The study needs none.
-    None,
-    /// They are proven with this step.
-    Prove(Step),
-    /// They are known, in dollars, day by day.
-    Known(Vec<f64>),
-}
-
-impl From<Option<Step>> for Bounds {
-    fn from(step: Option<Step>) -> Self {
-        step.map_or(Self::None, Self::Prove)
-    }
-}
-
 /// Days and the competitors that will play them. Every competitor can play every day.
 pub(crate) struct Study {
     pub(crate) competitors: Vec<Competitor>,
-    pub(crate) scenarios: Vec<Arc<Scenario>>,
-    pub(crate) bounds: Bounds,
+    days: Vec<BoundedDay>,
+    /// The step with which upper bounds of the days are to be proven.
+    pub(crate) bound_step: Option<Step>,
 }
 
 impl Study {
     /// # Errors
     /// Returns [`Error::Empty`] if there is no competitor or no day, and an error if a competitor
     /// cannot play one of the days.
-    pub(crate) fn new(
+    pub(crate) fn new<Day: Into<BoundedDay>>(
         competitors: Vec<Competitor>,
-        scenarios: Vec<Arc<Scenario>>,
-        bounds: impl Into<Bounds>,
+        days: Vec<Day>,
+        bound_step: Option<Step>,
     ) -> Result<Self, Error> {
-        if competitors.is_empty() || scenarios.is_empty() {
-            return Err(Error::Empty { policies: competitors.len(), days: scenarios.len() });
+        if competitors.is_empty() || days.is_empty() {
+            return Err(Error::Empty { policies: competitors.len(), days: days.len() });
         }
-        for scenario in &scenarios {
-            competitors.iter().try_for_each(|competitor| competitor.check_fits(scenario))?;
+        let days: Vec<BoundedDay> = days.into_iter().map(Into::into).collect();
+        for day in &days {
+            competitors.iter().try_for_each(|competitor| competitor.check_fits(&day.scenario))?;
         }
-        Ok(Self { competitors, scenarios, bounds: bounds.into() })
+        Ok(Self { competitors, days, bound_step })
     }
 
     pub(crate) fn days(&self) -> impl Iterator<Item = &Scenario> + Clone {
-        self.scenarios.iter().map(Arc::as_ref)
+        self.days.iter().map(|day| &*day.scenario)
+    }
+
+    pub(crate) fn scenarios(&self) -> Vec<Arc<Scenario>> {
+        self.days.iter().map(|day| Arc::clone(&day.scenario)).collect()
     }
 
     /// Bounds all days, if bounds are asked for, and plays them with every competitor, one
@@ -97,18 +87,16 @@ impl Study {
         stop: &Stop,
         watch: &impl Watch,
     ) -> Result<Vec<PolicyRecord>, Error> {
-        let Self { competitors, scenarios, bounds } = self;
-        let (number, scenarios) = (scenarios.len(), scenarios.clone());
-        let days = match bounds {
-            Bounds::Prove(slices) => {
-                KeptBounds::of_this_user().days(scenarios, *slices, stop, &watch.bounds(number))?
-            }
-            Bounds::Known(bounds_usd) => BoundedDay::with_bounds(scenarios, bounds_usd),
-            Bounds::None => scenarios.into_iter().map(BoundedDay::unbounded).collect(),
-        };
+        let (competitors, number) = (&self.competitors, self.days.len());
+        let proven = self.bound_step.map(|step| {
+            let bounded = watch.bounds(number);
+            KeptBounds::of_this_user().days(self.scenarios(), step, stop, &bounded)
+        });
+        let proven = proven.transpose()?;
+        let days = proven.as_ref().unwrap_or(&self.days);
         let play = |(at, competitor): (usize, &Competitor)| {
             let played = watch.policy(&competitor.name, at + 1, competitors.len(), number);
-            let record = play_all(competitor, &days, kept, stop, &played)?;
+            let record = play_all(competitor, days, kept, stop, &played)?;
             watch.played(&record);
             Ok(record)
         };

@@ -22,6 +22,7 @@ use vertifleet_optimize::Step;
 
 use crate::error::Error;
 use crate::kept_bounds::KeptBounds;
+use crate::run::BoundedDay;
 use crate::study::MOST_DAYS;
 use frozen::FrozenDay;
 
@@ -126,6 +127,12 @@ pub struct SuiteDay {
     pub hash: String,
     /// The certified upper bound of its profit, dollars; `None` if it has not been proven.
     pub upper_bound_usd: Option<f64>,
+}
+
+impl From<SuiteDay> for BoundedDay {
+    fn from(SuiteDay { scenario, upper_bound_usd, .. }: SuiteDay) -> Self {
+        Self { scenario, upper_bound_usd }
+    }
 }
 
 impl Suite {

@@ -17,8 +17,9 @@ use super::space::{Design, Dimension, DimensionKind, Space};
 use crate::comparison::DrawnDays;
 use crate::error::Error;
 use crate::journal::Journal;
-use crate::run::{BoundedDay, Kept, play_all};
+use crate::run::Kept;
 use crate::statistics::mean;
+use crate::study::{Study, Unwatched};
 
 /// The solver of a search, with everything that was found out.
 pub(super) struct KnownDesigns<'a> {
@@ -92,10 +93,10 @@ impl<'a> KnownDesigns<'a> {
 
     fn play_days(&self, design: &Design, drawn: DrawnDays) -> Result<Vec<DayTotals>, Error> {
         let network = self.sizing.space.network(design)?;
-        let days = drawn.draw(&network, self.stop)?;
-        let days: Vec<BoundedDay> = days.into_iter().map(BoundedDay::unbounded).collect();
-        let policy = play_all(&self.sizing.competitor, &days, Kept::Totals, self.stop, &|| ())?;
-        Ok(policy.days.iter().map(|day| day.totals).collect())
+        let competitors = vec![self.sizing.competitor.clone()];
+        let study = Study::new(competitors, drawn.draw(&network, self.stop)?, None)?;
+        let policies = study.play(Kept::Totals, self.stop, &Unwatched)?;
+        Ok(policies[0].days.iter().map(|day| day.totals).collect())
     }
 
     /// The sum of the bounds of all days.
