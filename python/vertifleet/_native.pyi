@@ -810,8 +810,8 @@ def read_days(paths: Sequence[_Path]) -> tuple[list[Scenario], str]:
 @final
 class Sweep:
     """The cells of a sweep, and the results of those that are finished. The values of a path in `changes`
-    are a list, or a text as the program's `--vary` takes it. With `latin`, this many cells are drawn with
-    the seed of the days; otherwise every combination is one. Finished cells are kept in the file
+    are a list, or a text as the program's `--vary` takes it. With `latin`, this many cells are drawn
+    with the seed of the days; otherwise every combination is one. Finished cells are kept in the file
     `journal`, and those that it holds are not played again.
     """
     def __new__(
@@ -865,6 +865,6 @@ def train(
     threads: SupportsIndex | None = None,
     watch: Callable[[dict[str, Any]], object] | None = None,
 ) -> Training:
-    """Trains a policy on a network, or on networks drawn for each day. Ctrl-C ends the run
-    with a checkpoint, from which `resume` continues it.
+    """Trains a policy on a network, or on networks drawn for each day. Ctrl-C ends the run with a
+    checkpoint, from which `resume` continues it.
     """
