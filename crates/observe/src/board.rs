@@ -1,11 +1,12 @@
-//! The flights that can leave each vertiport, looked at once and remembered while nothing changes
-//! of what they follow from.
+//! The flights that can leave each vertiport, computed once and cached while their inputs stay the
+//! same.
 //!
-//! A decision looks at all pairs of vertiports four times, at different times of the day. Between
-//! two decisions the passengers of one pair have changed, and the hour perhaps. So a vertiport's
-//! flights are kept with the passengers that were counted. They are true while the same passengers
-//! wait, at the times at which profits are [steady](vertifleet_sim::Departures::steady). That holds
-//! for the day itself and for roll-outs of it that have gone different ways.
+//! A decision evaluates all pairs of vertiports four times, for different times of the day. Between
+//! two decisions only the passengers of one pair change, and sometimes the demand period. So the
+//! flights of a vertiport are stored with the passenger counts they were computed from. They stay
+//! valid while the counts are equal and the time is within the span in which profits are
+//! [steady](vertifleet_sim::Departures::steady). That holds for the day itself and for roll-outs of
+//! it that took different choices.
 
 use std::ops::Range;
 
@@ -15,13 +16,13 @@ use vertifleet_sim::{DayKey, View};
 
 use crate::column::hours;
 
-/// Demand periods that are kept; a later one takes the place of the one that lies this many before
-/// it.
+/// Number of demand periods in the cache; a period replaces the one that is this many periods
+/// earlier.
 const PERIODS: usize = 8;
-/// Most vertiports of all days that are kept at a time, as many as a batch of decisions has.
+/// Largest number of vertiports in the cache over all days: those of one batch of decisions.
 const MOST_VERTIPORTS: usize = 2_048;
 
-/// The boards of the days that were looked at lately.
+/// The boards of the days that were evaluated recently.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Boards {
     days: Vec<(DayKey, Board)>,
@@ -42,14 +43,14 @@ pub(crate) struct Board {
     rates: Vec<f32>,
 }
 
-/// What is known of a vertiport's flights at some times of decision.
+/// The flights of a vertiport, and the span of decision times for which they are valid.
 #[derive(Debug, Clone)]
 struct Known {
     steady: Range<Time>,
     onward: Onward,
 }
 
-/// What can be flown from a vertiport at a time.
+/// The flights that can leave a vertiport at a time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Onward {
     /// The highest profits per hour of a flight, in units.
@@ -96,7 +97,7 @@ impl Board {
         self.units_usd[kind.at()]
     }
 
-    /// What can be flown from a vertiport at a time of the day.
+    /// The flights that can leave a vertiport at a time of the day.
     pub(crate) fn onward(
         &mut self,
         view: View<'_>,
@@ -111,9 +112,9 @@ impl Board {
         self.known[row].onward
     }
 
-    /// Profit per hour of a flight from a vertiport to each, in units, between 0 and 3, and 0 out
-    /// of range, as they were when the vertiport and the type were last looked at for a demand
-    /// period.
+    /// Profit per hour of a flight from a vertiport to each other one, in units, clamped to [0, 3],
+    /// and 0 out of range. The values are those of the last call of [`look`](Self::look) for the
+    /// vertiport, the type and the demand period.
     pub(crate) fn rates(&self, kind: TypeIx, from: VertiportIx, period: usize) -> &[f32] {
         &self.rates[self.row(kind, from, period) * self.vertiports..][..self.vertiports]
     }
@@ -122,7 +123,7 @@ impl Board {
         (kind.at() * PERIODS + period % PERIODS) * self.vertiports + from.at()
     }
 
-    /// Makes the row of a vertiport's flights true, and says which it is.
+    /// Brings the row of a vertiport's flights up to date, and returns its index.
     pub(crate) fn look(
         &mut self,
         view: View<'_>,

@@ -1,7 +1,7 @@
 //! Columns: the numbers that describe a vertiport or an aircraft, each with its name.
 //!
-//! `gcaps-x` and `gcaps-full` observe lists of columns, and share those that mean the same to both.
-//! docs/src/concepts/policies.md says what each column means; a test holds its tables to the lists.
+//! `gcaps-x` and `gcaps-full` observe lists of columns, and share those that mean the same in both.
+//! docs/src/concepts/policies.md defines each column; a test compares its tables with the lists.
 
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 use vertifleet_sim::{Decision, View};
@@ -9,8 +9,8 @@ use vertifleet_sim::{Decision, View};
 /// A number that describes a `T`, and its name.
 pub(crate) struct Column<T>(pub(crate) &'static str, pub(crate) fn(&T) -> f64);
 
-/// Writes a row of columns. The lists are constants and their length is known, so that each column
-/// is compiled in place.
+/// Writes a row of columns. The lists are constants of known length, so the compiler inlines each
+/// column.
 #[inline]
 pub(crate) fn write<T, const COLUMNS: usize>(
     columns: &'static [Column<T>; COLUMNS],
@@ -28,26 +28,26 @@ pub(crate) fn names<T>(columns: &[Column<T>]) -> Vec<&'static str> {
     columns.iter().map(|column| column.0).collect()
 }
 
-/// Other aircraft that are ready this long before or after the deciding one want the same flights,
-/// seconds.
+/// Other aircraft compete for the same flights if they are ready this long before or after the
+/// deciding one, seconds.
 const NEAR_S: u32 = 900;
 
-/// The other aircraft that stand at a vertiport or are on their way there, and what else an
-/// observation notes of the vertiport.
+/// The other aircraft that stand at a vertiport or are on their way there, and the fields that an
+/// observation adds.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Around<M> {
     /// The time at which the deciding aircraft would be ready there.
     pub(crate) ready: Time,
     /// The number of aircraft that are ready before that time.
     pub(crate) before: u16,
-    /// The number that are ready at about that time.
+    /// The number that are ready within [`ABOUT_S`] of that time.
     pub(crate) near: u16,
     pub(crate) more: M,
 }
 
-/// Counts the other aircraft at each vertiport. `fresh` begins the notes of a vertiport at which
-/// the deciding aircraft would be ready at a time, and `each` notes another aircraft with the place
-/// where it is ready and the time.
+/// Counts the other aircraft at each vertiport. `fresh` creates the record of a vertiport, given
+/// the time at which the deciding aircraft would be ready there. `each` adds another aircraft,
+/// given the vertiport and the time at which it is ready.
 pub(crate) fn look_around<M>(
     around: &mut Vec<Around<M>>,
     view: View<'_>,
@@ -75,7 +75,7 @@ pub(crate) fn look_around<M>(
     }
 }
 
-/// A vertiport as the deciding aircraft would find it, with what only one observation shows.
+/// A vertiport as the deciding aircraft would find it, with the fields of a single observation.
 pub(crate) struct Node<M> {
     /// Whether it may be chosen.
     pub(crate) is_open: bool,
@@ -157,7 +157,7 @@ impl<M> Node<M> {
     }
 }
 
-/// The deciding aircraft and its fleet, with what only one observation shows.
+/// The deciding aircraft and its fleet, with the fields of a single observation.
 pub(crate) struct Aircraft<M> {
     /// Share of the day, and hours of it, that are left.
     pub(crate) day_left: f64,
@@ -229,7 +229,7 @@ pub(crate) fn share(part: u32, whole: u32) -> f64 {
     f64::from(part) / f64::from(whole)
 }
 
-/// A small count in fours, at most 2.
+/// A small count, divided by four and at most 2.
 pub(crate) fn counted(count: u16) -> f64 {
     (f64::from(count) / 4.0).min(2.0)
 }

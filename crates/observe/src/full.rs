@@ -1,10 +1,10 @@
-//! The full observation, of `gcaps-full` and `mlp-full`: every vertiport as it looks from the
-//! deciding aircraft, with the forecast and the fleet, in numbers that mean the same on every
-//! network. It needs no bid prices.
+//! The full observation, of `gcaps-full` and `mlp-full`: every vertiport relative to the deciding
+//! aircraft, with the forecast and the fleet. Its numbers mean the same on every network. It needs
+//! no bid prices.
 //!
 //! Dollars are measured in the profit of a typical full flight of the network, times in hours, and
-//! passengers in flights; every number is bounded. A look takes in every pair of vertiports four
-//! times, which [boards](Boards) make cheap, and once the fleet.
+//! passengers in flights; every number is bounded. A decision evaluates every pair of vertiports
+//! four times, which [boards](Boards) make cheap, and the fleet once.
 
 use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, VertiportSet, View};
@@ -17,8 +17,8 @@ use crate::column::{
 /// How soon other aircraft at a vertiport are ready, seconds; they are counted for each of these
 /// times.
 const READY_S: [u32; 5] = [0, 900, 1_800, 3_600, 7_200];
-/// What can be flown from a vertiport is looked at when the aircraft is ready there, and so long
-/// afterwards, seconds.
+/// The flights that can leave a vertiport are evaluated when the aircraft is ready there, and this
+/// long afterwards, seconds.
 const ONWARD_S: [u32; 3] = [0, 3_600, 7_200];
 
 type FullNode = Node<Outlook>;
@@ -84,7 +84,7 @@ pub(crate) const AIRCRAFT: [Column<FullAircraft>; 11] = [
     }),
 ];
 
-/// What the forecast and the routes add to a vertiport.
+/// The fields that the forecast and the routes add to a vertiport.
 pub(crate) struct Outlook {
     ahead: Ahead,
     /// Hours of the day that are left when the aircraft is ready there.
@@ -96,8 +96,8 @@ pub(crate) struct Outlook {
     shut: u32,
 }
 
-/// The number of aircraft that are ready at a vertiport within each time of [`READY_S`], and what
-/// can be flown from there at each time of [`ONWARD_S`].
+/// The number of aircraft that are ready at a vertiport within each time of [`READY_S`], and the
+/// flights that can leave it at each time of [`ONWARD_S`].
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Ahead {
     within: [u16; 5],
@@ -116,7 +116,7 @@ pub enum Edges {
     Profit,
 }
 
-/// Looks at decisions. It remembers the flights of the days that it looked at lately.
+/// Evaluates decisions. It caches the flights of recent days.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Eye {
     boards: Boards,
@@ -145,7 +145,8 @@ impl Eye {
         let board = self.boards.of(view);
         let fresh = |to, ready| {
             let onward = ONWARD_S.map(|later_s| board.onward(view, kind, to, ready + later_s));
-            // What leaves now is looked at last, so that it is there when edges are written.
+            // The departures of now come last, so that their rates are in the board when edges are
+            // written.
             board.look(view, kind, to, decision.time);
             Ahead { within: [0; 5], onward }
         };
@@ -189,9 +190,9 @@ impl Look<'_> {
         }
     }
 
-    /// Writes the weights of the edges between vertiports, in the direction of flights, with a row
-    /// of `stride` entries for each vertiport that flights come from, over zeros: what is 0, as
-    /// pairs out of range are, need not be written.
+    /// Writes the weights of the edges between vertiports, in the direction of flights. Each
+    /// vertiport of departure has a row of `stride` entries. The array must hold zeros: entries
+    /// that are 0, such as pairs out of range, are not written.
     pub(crate) fn write_edges(&self, edges: Edges, stride: usize, to: &mut [f32]) {
         let Self { view, decision, kind, board, .. } = *self;
         let period = view.period_at(decision.time);
@@ -217,7 +218,7 @@ impl Look<'_> {
     }
 }
 
-/// A number that may be large, on a scale on which it stays small.
+/// A logarithmic scale for a number that may be large.
 fn log(number: f64) -> f64 {
     (number.ln_1p() / 3.0).min(3.0)
 }

@@ -45,7 +45,7 @@ impl Layout {
         self.width
     }
 
-    /// The sizes that the shapes are of.
+    /// The sizes that the shapes are computed from.
     pub fn sizes(&self) -> Sizes {
         self.sizes
     }
@@ -65,7 +65,7 @@ impl Layout {
         row.fill(0.0);
         let Observer { scales, prices, shortlist, priced, full } = observer;
         let Scene { view, decision, feasible, over } = *scene;
-        // A day that is over has no more prices, and nothing is left to decide.
+        // Prices are undefined on a finished day, and nothing is left to decide.
         let priced = (self.is_priced && !over).then(|| {
             let prices = prices.at(view, decision);
             let listed = shortlist.rank(prices, view, decision);
@@ -79,8 +79,7 @@ impl Layout {
     }
 }
 
-/// Writes a part in its unit instead of divided by its scale, into an array of the sizes of its
-/// day.
+/// Writes a part in its unit instead of divided by its scale, into an array of the day's sizes.
 ///
 /// # Panics
 /// If the array has another length, or if views do not have the part.

@@ -1,12 +1,12 @@
-//! What may be seen of a decision, as arrays.
+//! Observations of decisions, as arrays.
 //!
-//! An observation is made of [parts](Part), each with a name, a shape, a unit and a scale. A
-//! [`Layout`] lays the parts that were asked for side by side in one row of numbers, which is
-//! filled without allocating memory. Everything in a row comes from a
-//! [`View`](vertifleet_sim::View), so it shows what is known at the decision and nothing else.
+//! An observation consists of [parts](Part), each with a name, a shape, a unit and a scale. A
+//! [`Layout`] puts the requested parts side by side in one row of numbers, and fills it without
+//! allocating memory. Everything in a row comes from a [`View`](vertifleet_sim::View), so it
+//! contains only information that is available at the decision.
 //!
-//! Learned policies decide by some of these numbers; a [`Writer`] writes an [`Observation`] as
-//! their networks take it.
+//! Learned policies decide by some of these numbers. A [`Writer`] writes an [`Observation`] in the
+//! form in which their networks read it.
 //!
 //! ```
 //! use std::sync::Arc;

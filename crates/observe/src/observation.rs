@@ -1,4 +1,4 @@
-//! What a learned policy observes, as its network takes it.
+//! The observations of learned policies, in the form in which their networks read them.
 
 use vertifleet_core::FeatureScales;
 use vertifleet_policy::{DayPrices, PricedChoice};
@@ -14,7 +14,7 @@ use crate::{column, full, paper, priced};
 pub enum Observation {
     /// The paper's (§IV.A): the present alone, divided by the scales of the network file.
     Paper,
-    /// The day at its bid prices.
+    /// The day with its bid prices.
     Priced,
     /// The forecast and the fleet, without prices.
     Full,
@@ -43,7 +43,7 @@ impl Observation {
     }
 
     /// The names of the features of a vertiport, and of those of the aircraft, in their order.
-    /// Those of the paper have none: most of them are about another vertiport each.
+    /// Those of the paper have no names: most of them concern another vertiport each.
     pub fn names(self) -> [Vec<&'static str>; 2] {
         match self {
             Self::Paper => [Vec::new(), Vec::new()],
@@ -53,7 +53,7 @@ impl Observation {
     }
 }
 
-/// A row that is being written; all numbers are zeros at first.
+/// A row that is being written; initially all zeros.
 pub struct Row<'a> {
     /// Node features [N x F].
     pub nodes: &'a mut [f32],
@@ -67,7 +67,7 @@ pub struct Row<'a> {
     pub clock: &'a mut f32,
 }
 
-/// Writes the observation of one kind of policy. It remembers what it saw of days lately.
+/// Writes the observation of one kind of policy. It caches values of recent days.
 #[derive(Debug, Clone)]
 pub struct Writer(Eye);
 
@@ -79,8 +79,7 @@ enum Eye {
 }
 
 impl Writer {
-    /// A writer of an observation; `scales` are for that of the paper, and `edges` for the full
-    /// one.
+    /// A writer of an observation; `scales` belong to the paper's, and `edges` to the full one.
     ///
     /// # Panics
     /// Panics if the paper's observation has no scales.

@@ -1,4 +1,4 @@
-//! The data that the observations of a day need besides the day itself.
+//! What the observations of a day need besides the day.
 
 use vertifleet_core::{FeatureScales, Network};
 use vertifleet_policy::{PriceMemory, Shortlist};
@@ -6,9 +6,9 @@ use vertifleet_policy::{PriceMemory, Shortlist};
 use crate::paper::Scales;
 use crate::{full, priced};
 
-/// The scales of a day's network, which divide the paper's parts, the memory of its bid prices,
-/// which parts that show prices need, and that of its unit of money, which parts of the full
-/// observation need. Days that are played side by side should have an observer each.
+/// The scales of a network, which divide the paper's parts, and two caches. Parts that contain
+/// prices need the cache of bid prices, and parts of the full observation the cache of flights.
+/// Days that are played in parallel should have an observer each.
 #[derive(Debug, Clone)]
 pub struct Observer {
     pub(crate) scales: Scales,

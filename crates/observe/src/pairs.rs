@@ -1,16 +1,15 @@
-//! Tables with a row for each vertiport that flights come from, and a column for each that they go
-//! to.
+//! Tables with a row for each vertiport of departure and a column for each destination.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::VertiportSet;
 
-/// How a table of pairs lies in its array.
+/// The layout of a table of pairs in its array.
 pub(crate) struct Pairs {
     /// Number of vertiports of the day.
     pub(crate) vertiports: usize,
-    /// Number of entries from one row to the next, at least as many.
+    /// Number of entries from one row to the next, at least `count`.
     pub(crate) stride: usize,
-    /// What numbers are multiplied by.
+    /// The factor that numbers are multiplied by.
     pub(crate) factor: f64,
 }
 
@@ -29,7 +28,7 @@ impl Pairs {
         }
     }
 
-    /// Writes counts, which come row by row.
+    /// Writes counts, given row by row.
     pub(crate) fn counts(&self, to: &mut [f32], counts: &[u32]) {
         let factor = self.factor as f32;
         let rows = counts.chunks_exact(self.vertiports);

@@ -1,8 +1,8 @@
 //! The observation of `gcaps` and `mlp` (§IV.A): node features, aircraft state and mask, and the
-//! share of the day that is left, which only the value head sees.
+//! remaining share of the day, which only the value head reads.
 //!
 //! The features of node i are U_i, U_max, d_i, r_i, P_i1..P_iN, R_i1..R_iN, where d_i and r_i are
-//! what is left of the current period's demand from and to i. The features of the aircraft are E,
+//! the remaining demand of the current period from and to i. The features of the aircraft are E,
 //! its vertiport (one-hot), its battery, and g_x1..g_xN. Every number is divided by a fixed scale
 //! from the network file.
 
@@ -60,8 +60,8 @@ impl Scales {
         }
     }
 
-    /// Writes ψ_k into `[G]`. Every take-off is with a full battery (Eq. 14), so the charge that is
-    /// written is the capacity.
+    /// Writes ψ_k into `[G]`. The battery is full at every take-off (Eq. 14), so the charge is the
+    /// capacity.
     pub(crate) fn write_aircraft(&self, aircraft: &mut [f32], decision: &Decision, view: View<'_>) {
         let vertiports = view.vertiports();
         let features = Observation::Paper.shape(vertiports).aircraft_features;

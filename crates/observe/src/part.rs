@@ -1,5 +1,5 @@
-//! The parts that an observation is made of. The table of `docs/src/reference/observations.md` is
-//! held to this one by a test.
+//! The parts of observations. A test compares the table of `docs/src/reference/observations.md`
+//! with this one.
 
 use crate::{Observation, Shape, Sizes};
 
@@ -74,7 +74,7 @@ pub enum Part {
     ProfitEdges,
 }
 
-/// What a part is.
+/// The properties of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Info {
     /// The part itself.
@@ -91,7 +91,7 @@ pub struct Info {
     pub scale: f64,
     /// The range of its numbers in observations.
     pub bounds: (f32, f32),
-    /// What it says.
+    /// Its meaning.
     pub meaning: &'static str,
 }
 
@@ -125,7 +125,7 @@ const fn info(
 const V: &[Axis] = &[Axis::Vertiports];
 const PAIR: &[Axis] = &[Axis::Vertiports, Axis::Vertiports];
 const FLEET: &[Axis] = &[Axis::Aircraft];
-/// The features of learned policies, whose numbers do not depend on that of vertiports.
+/// The features of learned policies, whose length does not depend on the number of vertiports.
 const PRICED: Shape = Observation::Priced.shape(0);
 const FULL: Shape = Observation::Full.shape(0);
 
@@ -242,7 +242,7 @@ impl Part {
         INFOS.iter().find(|info| info.in_views == Some(name)).map(|info| info.part)
     }
 
-    /// What the part is.
+    /// The properties of the part.
     pub fn info(self) -> &'static Info {
         &INFOS[self as usize]
     }
@@ -257,12 +257,12 @@ impl Part {
         self.info().axes.iter().map(|axis| axis.len(sizes)).product()
     }
 
-    /// Whether the part shows the day at its bid prices, which take time to find.
+    /// Whether the part contains bid prices, which take time to find.
     pub fn is_priced(self) -> bool {
         matches!(self, Self::PricedNodes | Self::PricedAircraft | Self::PricedWorth)
     }
 
-    /// Whether the part is what policies of the full observation see.
+    /// Whether the part is observed by policies of the full observation.
     pub fn is_of_the_full(self) -> bool {
         matches!(
             self,
@@ -270,7 +270,7 @@ impl Part {
         )
     }
 
-    /// Whether the part is what a learned policy makes of the other parts.
+    /// Whether the part is a feature that a learned policy derives from other parts.
     pub fn is_of_a_policy(self) -> bool {
         let of_the_paper =
             matches!(self, Self::Nodes | Self::Aircraft | Self::Clock | Self::Adjacency);
@@ -283,7 +283,7 @@ impl Part {
         matches!(self, Self::Nodes | Self::Aircraft)
     }
 
-    /// Whether the part shows something of the future: a forecast, or what is known ahead.
+    /// Whether the part concerns the future: a forecast, or an event that is announced.
     pub fn is_ahead(self) -> bool {
         self.is_priced()
             || matches!(

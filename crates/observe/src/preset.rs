@@ -5,10 +5,11 @@ use crate::Part;
 /// The names of the observations.
 pub const PRESETS: [&str; 4] = ["paper", "full", "gcaps-x", "gcaps-full"];
 
-/// The parts of a named observation: `paper` (§IV.A), `full` (everything that may be seen and needs
-/// no bid prices), `gcaps-x` (what that policy sees) or `gcaps-full` (what that policy sees on the
-/// complete graph of vertiports alone, and `mlp-full`); `None` for other names. All of them have
-/// the mask.
+/// The parts of a named observation, or `None` for other names; all of them have the mask:
+/// - `paper`: the observation of §IV.A.
+/// - `full`: every part that needs no bid prices.
+/// - `gcaps-x`: the observation of that policy.
+/// - `gcaps-full`: the observation of `mlp-full`, and of `gcaps-full` on the complete graph.
 pub fn preset(name: &str) -> Option<Vec<Part>> {
     let parts = match name {
         "paper" => {

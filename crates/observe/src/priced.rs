@@ -1,9 +1,10 @@
-//! What `gcaps-x` observes: every vertiport as it looks from the deciding aircraft at the day's bid
-//! prices, in numbers that mean the same on every network.
+//! The observation of `gcaps-x`: every vertiport relative to the deciding aircraft at the day's bid
+//! prices. Its numbers mean the same on every network.
 //!
 //! Dollars are measured in the profit of a typical full flight of the network, times in hours, and
-//! passengers in flights; every number is bounded. A look takes one pass over the fleet, and for up
-//! to 48 of the aircraft that are ready soon it also computes which choice they would prefer.
+//! passengers in flights; every number is bounded. A decision takes one pass over the fleet. For up
+//! to 48 of the aircraft that are ready soon, the pass also computes which choice they would
+//! prefer.
 
 use vertifleet_core::VertiportIx;
 use vertifleet_policy::{DayPrices, PricedChoice};
@@ -15,14 +16,13 @@ use crate::column::{
 
 /// A logit of 1 is worth the unit divided by this.
 pub const LOGITS_A_UNIT: f64 = 20.0;
-/// The least worth that a part shows, which stands for all that are lower.
+/// The lowest worth in a part; lower values are written as this.
 const LEAST_WORTH: f64 = -1e6;
-/// A factor for differences in worth, which makes the small ones that matter visible to the
-/// network.
+/// A factor for differences in worth, so that the network can distinguish the small ones that
+/// matter.
 const SHARPER: f64 = 8.0;
-/// For other aircraft that are ready within this time, seconds, the preferred choice is computed;
-/// for at most `MOST_COMPETITORS` of them, and for fewer if there are more than 30 vertiports to
-/// choose from.
+/// The preferred choice is computed for other aircraft that are ready within this time, seconds;
+/// for at most `MOST_COMPETITORS` of them, and for fewer if more than 30 vertiports can be chosen.
 const COMPETITORS_S: u32 = 1_800;
 const MOST_COMPETITORS: usize = 48;
 const MOST_ASKED: usize = 30 * MOST_COMPETITORS;
@@ -72,41 +72,42 @@ pub(crate) const AIRCRAFT: [Column<PricedAircraft>; 10] = [
     Column("aircraft_a_stand", |aircraft| aircraft.fleet / f64::from(aircraft.stands)),
 ];
 
-/// What a vertiport is worth at the prices; dollars in units.
+/// The worth of a vertiport at the prices; dollars in units.
 pub(crate) struct Worth {
-    /// By how much the best choice is worth more.
+    /// The worth of the best choice less that of this one.
     regret: f64,
     /// The price of the passengers who would board.
     passengers: f64,
     /// The rent of a stand until the aircraft is ready, and for an hour afterwards.
     rent: f64,
     rent_after: f64,
-    /// By how much the aircraft is worth more there than here, and than a quarter of an hour later.
+    /// The worth of the aircraft there less its worth here, and less its worth there a quarter of
+    /// an hour later.
     beside_staying: f64,
     falling: f64,
     rivals: Rivals,
 }
 
-/// What is at stake in a decision; dollars in units.
+/// The money at stake in a decision; dollars in units.
 pub(crate) struct Stake {
     /// The rent of the stand that the aircraft has, for a quarter of an hour.
     rent: f64,
-    /// By how much the best choice is worth more than the second.
+    /// The worth of the best choice less that of the second.
     lead: f64,
 }
 
-/// The aircraft that are ready soon and are best off at a vertiport, and the sum of what they would
-/// lose by going elsewhere, in units.
+/// The aircraft that are ready soon and for which a vertiport is the best choice, and the sum of
+/// what they would lose by another choice, in units.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Rivals {
     competitors: u16,
     contention: f64,
 }
 
-/// A decision together with what its choices are valued by: the state of the day and its prices.
+/// A decision together with the state of the day and its prices, which its choices are valued by.
 #[derive(Debug, Clone, Copy)]
 pub struct PricedDecision<'a> {
-    /// The day as it is seen.
+    /// The view of the day.
     pub view: View<'a>,
     /// The decision.
     pub decision: &'a Decision,
@@ -122,10 +123,10 @@ impl<'a> PricedDecision<'a> {
         Self { view, decision, prices, unit_usd: prices.unit_usd(view.kind(decision.aircraft)) }
     }
 
-    /// The unit of the network's additions, dollars: the profit of a typical full flight, reduced
-    /// where a decision has less than that at stake. The network learns where most flights are
+    /// The unit of the network's additions, dollars: the profit of a typical full flight, or less
+    /// where less is at stake in the decision. The network learns on days on which most flights are
     /// full. Where most seats stay empty, the prices are the better guide, and an addition of a
-    /// share of a full flight would drown them out.
+    /// share of a full flight would outweigh them.
     pub fn addition_usd(&self) -> f64 {
         let fullness = (self.prices.stake_usd() / self.unit_usd).min(1.0);
         self.unit_usd * fullness * fullness
@@ -161,7 +162,7 @@ impl<'a> PricedDecision<'a> {
     }
 }
 
-/// Looks at decisions at their prices. It keeps its memory from one to the next.
+/// Evaluates decisions at their prices. It reuses its memory between decisions.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Eye {
     around: Vec<Around<Rivals>>,
@@ -257,14 +258,14 @@ impl Look<'_> {
         for choice in self.listed {
             let less_usd = choice.worth_usd - self.listed[0].worth_usd;
             let logits = LOGITS_A_UNIT * less_usd / self.scene.addition_usd();
-            // Where nothing is at stake the network adds nothing, and any difference is infinite in
-            // its unit.
+            // Where nothing is at stake, the unit is 0: the network adds nothing, and any
+            // difference in its unit is infinite.
             to[choice.to.at()] = if less_usd == 0.0 { 0.0 } else { logits.max(LEAST_WORTH) as f32 };
         }
     }
 }
 
-/// Passengers in full flights, on a scale on which they stay small.
+/// Passengers in full flights, on a logarithmic scale.
 fn flights(passengers: u32, seats: u32) -> f64 {
     (share(passengers, seats).ln_1p() / 3.0).min(1.5)
 }

@@ -1,11 +1,11 @@
-//! A decision with the day as it is seen from there.
+//! A decision with the view of the day at that moment.
 
 use vertifleet_core::TypeIx;
 use vertifleet_sim::{Decision, VertiportSet, View};
 
 use crate::Sizes;
 
-/// A decision, and what its observation needs besides it.
+/// A decision, and the state of the day that its observation needs.
 #[derive(Debug, Clone, Copy)]
 pub struct Scene<'a> {
     pub(crate) view: View<'a>,
@@ -15,12 +15,12 @@ pub struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    /// A decision that is to be taken now.
+    /// A decision that is pending.
     pub fn of(view: View<'a>, decision: &'a Decision) -> Self {
         Self { view, decision, feasible: view.feasible(decision), over: false }
     }
 
-    /// The day as it is seen by an aircraft that does not decide now, from where it stands or will
+    /// The view of an aircraft that does not decide now, from the vertiport where it stands or will
     /// land: only hold is feasible.
     pub fn waiting(view: View<'a>, decision: &'a Decision) -> Self {
         let mut feasible = VertiportSet::EMPTY;
@@ -28,13 +28,13 @@ impl<'a> Scene<'a> {
         Self { view, decision, feasible, over: false }
     }
 
-    /// A day that is over, as it is seen by the aircraft that decided last: only hold is feasible,
-    /// and no time is left.
+    /// A finished day in the view of the aircraft that decided last: only hold is feasible, and no
+    /// time is left.
     pub fn over(view: View<'a>, decision: &'a Decision) -> Self {
         Self { over: true, ..Self::waiting(view, decision) }
     }
 
-    /// The day as it is seen.
+    /// The view of the day.
     pub fn view(&self) -> View<'a> {
         self.view
     }

@@ -1,4 +1,4 @@
-//! Writes each part from what is seen of the day.
+//! Writes each part from the view of the day.
 
 use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
 use vertifleet_sim::Leg;
@@ -22,8 +22,7 @@ pub(crate) struct Writer<'a> {
     pub(crate) scales: &'a Scales,
     /// The decision at the day's bid prices, if a part needs them and the day is not over.
     pub(crate) priced: Option<priced::Look<'a>>,
-    /// The decision as policies of the full observation see it, if a part needs that and the day is
-    /// not over.
+    /// The decision in the full observation, if a part needs it and the day is not over.
     pub(crate) full: Option<full::Look<'a>>,
     /// Whether numbers stay in their units, instead of being divided by their scales.
     pub(crate) natural: bool,
@@ -132,7 +131,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Writes a number for each vertiport that a flight of the deciding aircraft could lead to.
+    /// Writes a number for each vertiport that the deciding aircraft could fly to.
     fn choices(&self, to: &mut [f32], factor: f64, number: impl Fn(Flight<'_>) -> f64) {
         let Scene { view, decision, .. } = *self.scene;
         let legs = view.legs_from(self.scene.kind(), decision.at);

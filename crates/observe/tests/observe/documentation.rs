@@ -1,4 +1,4 @@
-//! The page on observations says what the code says.
+//! Compares the tables of the book's pages with the code.
 
 use std::fmt::Write;
 use std::fs;

@@ -1,4 +1,4 @@
-//! Rows of observations against what the view says, on any day, at every decision.
+//! Compares rows of observations with the view, on any day and at every decision.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use vertifleet_core::{
 use vertifleet_observe::{Layout, Observation, Observer, Part, Row, Scene, Shape, Sizes, Writer};
 use vertifleet_sim::{Decision, Simulation, View};
 
-/// All parts, as padded as `extra` says.
+/// All parts, padded by the sizes in `extra`.
 fn layout(day: &Scenario, extra: usize) -> Layout {
     let sizes = Sizes::of_day(day);
     let padded = Sizes {
@@ -107,7 +107,7 @@ fn check_against_the_view(layout: &Layout, row: &[f32], view: View<'_>, decision
     assert_eq!(get(Part::FleetMask).iter().sum::<f32>(), view.places().len() as f32);
 }
 
-/// What policies of the full observation see, against the other parts.
+/// Compares the observation of full policies with the other parts.
 fn check_the_full<'a>(
     get: impl Fn(Part) -> &'a [f32],
     view: View<'_>,
@@ -245,7 +245,8 @@ fn a_day_that_is_over_has_no_time_left_and_only_hold() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// The demand of later periods may be anything: what is seen before they begin is the forecast.
+    /// Changes the demand of later periods and expects the same rows: before a period begins,
+    /// observations contain its forecast only.
     #[test]
     fn the_future_is_not_seen(number in 0_u64..1_000, shift in 1_u32..50) {
         let network = Network::shipped("disrupted").expect("a shipped network");
