@@ -18,7 +18,7 @@ pub const DAY_PAGE: OutputKind = OutputKind {
     opening: "<!DOCTYPE html>\n<!-- vertifleet-day/",
 };
 
-/// Most pairs, and most pairs with a period, that are listed; JSON has all of them.
+/// Largest number of pairs, and of pairs with a period, in a list; JSON has all of them.
 const MOST_ROWS: usize = 20;
 
 /// The report of a day: ledger, map, aircraft, stands, demand, all tables, and the replay.
@@ -59,8 +59,8 @@ pub fn account<'a>(account: &Account, replayed: &'a [ReplayedDay]) -> Report<'a>
     }
 }
 
-/// How much of the money that is spilled no aircraft can earn, as the end of a sentence; empty if
-/// no passenger is spilled there.
+/// How much of the spilled money no aircraft can earn, as the end of a sentence; empty if no
+/// passenger is out of reach.
 fn spilled_out_of_reach(account: &Account) -> String {
     let Loss { spilled, spilled_margin_usd, .. } = account.cannot_be_flown;
     if spilled == 0 {

@@ -6,7 +6,7 @@ use vertifleet_study::account::{Account, AircraftUse, Loss};
 
 use crate::report::Table;
 
-/// Where the money comes from and goes to.
+/// The ledger: revenue, costs and profit.
 pub(crate) fn ledger(account: &Account) -> Table {
     let lines = ledger_lines(account.scenario(), &account.trace().rows);
     let revenue_usd = lines[0].1;
@@ -48,7 +48,7 @@ pub(crate) fn periods(account: &Account) -> Table {
     }))
 }
 
-/// The pairs with the most money spilled, of those that can be flown.
+/// The pairs with the most money spilled, among those that can be flown.
 pub(crate) fn pairs(account: &Account, most: usize) -> Table {
     let columns = ["pair"].into_iter().chain(DEMAND).chain(["flights", "empty", "profit, $"]);
     let can_be_flown = account.pairs.iter().filter(|one| one.can_be_flown);
@@ -61,7 +61,7 @@ pub(crate) fn pairs(account: &Account, most: usize) -> Table {
     }))
 }
 
-/// The pairs and periods with the most money spilled, of those that can be flown.
+/// The pairs and periods with the most money spilled, among those that can be flown.
 pub(crate) fn worst_cells(account: &Account, most: usize) -> Table {
     let can_be_flown = account.spilled.iter().filter(|one| one.can_be_flown);
     Table::new(["pair", "from"].into_iter().chain(DEMAND)).with_rows(can_be_flown.take(most).map(
@@ -73,7 +73,7 @@ pub(crate) fn worst_cells(account: &Account, most: usize) -> Table {
     ))
 }
 
-/// How full the vertiports were, and what their stands are worth if that is known.
+/// How full the vertiports were, and the value of one more stand if it was computed.
 pub(crate) fn vertiports(account: &Account) -> Table {
     let is_worth_known = account.vertiports.iter().any(|one| one.stand_worth.is_some());
     let mut columns = vec!["vertiport", "room", "departures", "arrivals", "taken", "full"];
@@ -92,8 +92,8 @@ pub(crate) fn vertiports(account: &Account) -> Table {
     }))
 }
 
-/// What aircraft did, as means by type. Time out of service has a column only where an outage kept
-/// an aircraft on the ground.
+/// The hours of aircraft, as means by type. Time out of service has a column only if an outage
+/// grounded an aircraft.
 pub(crate) fn types(account: &Account) -> Table {
     let has_outages = account.aircraft.iter().any(|one| one.out_of_service_h > 0.0);
     let mut columns =

@@ -19,10 +19,10 @@ use crate::report::{DataFile, Files, Place, Report, Section, Table, difference};
 pub(crate) const SEES: &str =
     "sees: the present; the forecast too; or the whole day beforehand, a reference and no policy";
 
-/// What a cell shows if there is no number.
+/// The text of a cell without a number.
 pub(crate) const NONE: &str = "n/a";
 
-/// The report of a comparison, as a page that stands alone.
+/// The report of a comparison, as a page that needs no other file.
 pub fn comparison<'a>(summary: &ComparisonReport, replayed: &'a [ReplayedDay]) -> Report<'a> {
     let days = match summary.days_from {
         None => counted(summary.days, "unseen day", "unseen days"),

@@ -5,8 +5,7 @@ use vertifleet_picture::numbers::{counted, dollars, grouped, p_statement, signed
 use vertifleet_study::comparison::{PairedDifference, PolicySummary};
 use vertifleet_study::{ComparisonReport, NetworkOrigin};
 
-/// Says how much the best policy earns, and whether its lead over the reference is more than
-/// chance.
+/// States the profit of the best policy, and whether its lead over the reference is significant.
 pub(crate) fn headline(summary: &ComparisonReport) -> String {
     let best = summary.best();
     let earns = format!(
@@ -71,7 +70,7 @@ fn lead(summary: &ComparisonReport, comparison: &PairedDifference) -> String {
     }
 }
 
-/// A text such as `1.3 % more than`, or one in dollars if a share of the other mean says nothing.
+/// A text such as `1.3 % more than`, or one in dollars if a share of the other mean has no meaning.
 fn share(difference: f64, other_mean: f64) -> String {
     if difference == 0.0 {
         "as much as".to_owned()

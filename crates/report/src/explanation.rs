@@ -1,5 +1,4 @@
-//! The report of an explained day: that of the played day, with its bound and what changes would be
-//! worth.
+//! The report of an explained day: that of the played day, with its bound and the value of changes.
 
 use vertifleet_core::OutputKind;
 use vertifleet_picture::numbers::{dollars, grouped, minutes, signed};
@@ -44,7 +43,7 @@ pub fn explanation<'a>(explanation: &Explanation, replayed: &'a [ReplayedDay]) -
     }
 }
 
-/// What changes are worth after what they cost.
+/// The value of changes after their cost.
 fn worth(explanation: &Explanation) -> Table {
     let by_policy = format!("{} after cost, $", explanation.account.policy);
     let columns = ["change", "cost, $", &by_policy, "bound after cost, $"];

@@ -1,10 +1,9 @@
 //! The figures of a comparison as SVG: learning curves (Fig. 3 and on validation days), reward
 //! (Fig. 4), profit (Fig. 5), share of the bound, and differences day by day.
 //!
-//! Every figure names its marks in words and tells its series apart by marker, dash or place as
-//! well as by colour, so that it reads the same in grey. Colours are set twice: as attributes, for
-//! the separate SVG file, and as classes, which the style sheet of a page may override for a dark
-//! background.
+//! Every figure names its marks in words. Its series differ by marker, dash or place as well as by
+//! colour, so that it can be read in grey. Colours are set twice: as attributes, for the separate
+//! SVG file, and as classes, which the style sheet of a page may override for a dark background.
 
 mod box_plot;
 mod day_differences;

@@ -1,5 +1,5 @@
-//! Properties of every figure: it is well-formed, its texts stay inside, it can be converted to
-//! PNG, and it names what it shows.
+//! Properties of every figure: it is well-formed, its texts fit into it, it can be converted to
+//! PNG, and it names its marks.
 
 use resvg::usvg::roxmltree::Document;
 use vertifleet_picture::palette::style_sheet;
@@ -35,7 +35,7 @@ fn study(names: &[&str], days: u32) -> ComparisonRecords {
         name: name.to_owned(),
         description: String::new(),
         days: (0..days).map(|day| record(policy, day)).collect(),
-        // One of every three is a reference that knows the day.
+        // Every third policy is a reference that knows the day in advance.
         sees: vertifleet_study::Sees::Present,
         weights_sha256: None,
         decision_ns: (policy % 3 != 2).then(LatencySummary::default),

@@ -11,16 +11,16 @@ use crate::report::{Files, Report};
 /// A file of a report: its name and its content.
 pub type File = (String, Vec<u8>);
 
-/// The places where a report was written.
+/// The paths of a report that was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Written {
     /// The page.
     pub page: PathBuf,
-    /// The new place of a folder that was in the way and held something else.
+    /// The new path of a folder with other content, which was moved away.
     pub kept: Option<PathBuf>,
 }
 
-/// The kind of a `summary.json` that begins with this format, in any version.
+/// The kind of a `summary.json` whose format begins with this text, in any version.
 const fn summary_of(opening: &'static str) -> OutputKind {
     OutputKind { name: "report", skipped: 0, opening }
 }
@@ -58,12 +58,12 @@ pub const SIZE: FolderKind = FolderKind {
     holds: |name| is_common(name) || [size::JOURNAL, "designs.csv", "best.toml"].contains(&name),
 };
 
-/// Checks, before the days are played, that a report may be written to this folder: it can be
-/// created, is empty, or holds an earlier report, or `force` is given. A folder that did not exist
-/// before does not exist afterwards.
+/// Checks, before the days are played, that a report may be written to this folder. It must be
+/// empty, contain an earlier report, or not exist yet; or `force` must be given. The check leaves
+/// no folder behind.
 ///
 /// # Errors
-/// Returns [`Error::CannotMakeFolder`], or [`Error::Core`] for a folder that holds something else
+/// Returns [`Error::CannotMakeFolder`], or [`Error::Core`] for a folder that contains anything else
 /// (V143) or is read-only (V144).
 pub fn check(folder: &Path, force: bool) -> Result<(), Error> {
     let missing =
@@ -71,20 +71,20 @@ pub fn check(folder: &Path, force: bool) -> Result<(), Error> {
     let missing: Vec<&Path> = missing.collect();
     let made = make_folder(folder);
     for path in missing {
-        // Another program may have put something into the folder by now; then it stays.
+        // Another program may have written to the folder in the meantime; then it stays.
         let _ = fs::remove_dir(path);
     }
     made?;
     Ok(vertifleet_core::check_folder(folder, &COMPARISON, force)?)
 }
 
-/// Writes the report of a comparison into `folder`, or nothing; the folder is created if it does
-/// not exist. An earlier report in it is replaced; with `force`, a folder with other content is
-/// kept next to it.
+/// Writes the whole report of a comparison into `folder`, or nothing; the folder is created if it
+/// does not exist. An earlier report in it is replaced. With `force`, a folder with other content
+/// is renamed and kept in the same place.
 ///
 /// # Errors
-/// The same as those of [`check`], and [`Error::Core`] (V102) if the report cannot be written.
-/// After an error everything is as it was.
+/// The same as those of [`check`], and [`Error::Core`] (V102) if the report cannot be written. An
+/// error leaves all files as they were.
 pub fn write(report: &Report<'_>, folder: &Path, force: bool) -> Result<Written, Error> {
     let files = files(report);
     check(folder, force)?;
@@ -92,8 +92,8 @@ pub fn write(report: &Report<'_>, folder: &Path, force: bool) -> Result<Written,
     Ok(Written { page: folder.join("report.html"), kept })
 }
 
-/// Writes a report into the folder of its journal, each file whole or not at all, and returns the
-/// path of the page.
+/// Writes a report into the folder of its journal and returns the path of the page. Each file is
+/// written completely or not at all.
 ///
 /// # Errors
 /// Returns [`Error::Core`] (V102) if a file cannot be written.

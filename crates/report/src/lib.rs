@@ -1,10 +1,10 @@
-//! How studies and played days are shown.
+//! How studies and played days are presented.
 //!
 //! Each function of this crate turns the results of one kind of study into a [`Report`]: a
 //! headline, tables, figures and perhaps a replay. A report has one form for a terminal
 //! ([`Report::text`]), one for notebooks ([`Report::tables_html`]), one as a page
 //! ([`Report::page`]), and one as a folder ([`folder`]). This crate computes nothing: all numbers
-//! come from `vertifleet-study`, which knows nothing of this crate.
+//! come from `vertifleet-study`, which does not depend on it.
 
 mod account;
 mod account_tables;

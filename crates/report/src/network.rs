@@ -1,11 +1,11 @@
-//! The report of what a network holds.
+//! The report of the contents of a network.
 
 use vertifleet_picture::numbers::{counted, grouped};
 use vertifleet_study::network_overview::NetworkOverview;
 
 use crate::report::{Report, Section, Table};
 
-/// With more vertiports, the matrix of demand is left out.
+/// Largest number of vertiports for which the matrix of demand is shown.
 const MOST_COLUMNS: usize = 16;
 
 /// The report of a network.
@@ -54,7 +54,7 @@ fn opening(overview: &NetworkOverview) -> String {
     )
 }
 
-/// How long passengers who are not carried wait, if they do.
+/// How long unserved passengers wait, if they do.
 pub(crate) fn waits(passenger_wait_s: u32) -> Option<String> {
     let (time, unit) = if passenger_wait_s.is_multiple_of(60) {
         (passenger_wait_s / 60, "min")

@@ -1,8 +1,8 @@
 //! A report as a page that opens offline, follows the reader's light or dark setting, and prints.
 //!
-//! The template escapes every text that it is given; only the figures and the style sheet, which
-//! the program itself makes, are inserted as they are. The page loads nothing: style and figures
-//! are inside, and links point to files next to the page.
+//! The template escapes all text that it receives; only the figures and the style sheet, which the
+//! program makes, are inserted unescaped. The page loads nothing: it contains its style and
+//! figures, and its links lead to files in the same folder.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -12,9 +12,9 @@ use vertifleet_picture::numbers::typeset;
 use crate::figure::Figure;
 use crate::report::{Files, Place, Report, Section, Table};
 
-/// The only script of a page of this crate: an address that leads to a moment of the replay leads
-/// to the frame of the replay, which is loaded when it is looked at. A server of the page names it
-/// in the policy of what the page may run.
+/// The only script of a page of this crate. It passes an address of a moment of the replay on to
+/// the frame of the replay, which is loaded when the reader scrolls to it. The service allows this
+/// script in the content security policy of the page.
 pub const REPLAY_FRAME_SCRIPT: &str =
     "if (/[#&]at=/.test(location.hash)) document.querySelector('iframe.replay').scrollIntoView()";
 
@@ -25,7 +25,7 @@ impl Report<'_> {
         self.page_with(replay.as_deref())
     }
 
-    /// The report as a page with the page of its replay in it.
+    /// The report as a page that contains the page of its replay.
     pub(crate) fn page_with(&self, replay: Option<&str>) -> String {
         let sections = self.sections.iter().filter(|section| section.place != Place::Terminal);
         let page = html! {
@@ -75,8 +75,8 @@ impl Report<'_> {
         }
     }
 
-    /// The days that can be watched, in a separate frame, which keeps their style and their
-    /// scripts apart from the page.
+    /// The days that can be watched, in a separate frame, which isolates their style and scripts
+    /// from the page.
     fn replay(&self, page: &str) -> Markup {
         let which = match self.replayed {
             [day] if day.plays.len() == 1 => "The day".to_owned(),
@@ -97,7 +97,7 @@ impl Report<'_> {
         }
     }
 
-    /// What to know about the page, and links to the files next to it.
+    /// Notes about the page, and links to the files in its folder.
     fn footer(&self) -> Markup {
         html! {
             footer {
@@ -172,7 +172,7 @@ fn picture(figure: &Figure, files: &Files<'_>) -> Markup {
     }
 }
 
-/// A link that holds what it leads to, so that the page stays one file.
+/// A link that contains its target, so that the page stays one file.
 fn data_link(kind: &str, bytes: &[u8]) -> String {
     format!("data:{kind};base64,{}", STANDARD.encode(bytes))
 }
@@ -191,8 +191,8 @@ fn table(Table { rows, best }: &Table) -> Markup {
     }
 }
 
-/// A cell as it is set in type: numbers with a true minus sign, intervals small, pairs with an
-/// arrow, names as they are.
+/// A cell as typeset: numbers with a true minus sign, intervals small, pairs with an arrow, names
+/// unchanged.
 fn cell(text: &str) -> Markup {
     let (mean, interval) = match text.split_once(" ± ") {
         Some((mean, half_width)) => (mean, Some(half_width)),

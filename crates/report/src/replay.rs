@@ -1,4 +1,4 @@
-//! The replay of days as a page: what each policy did on them, on a map and along the day, in one
+//! The replay of days as a page: the flights of each policy, on a map and along the day, in one
 //! HTML file that needs no other.
 
 use serde::Serialize;
@@ -58,7 +58,7 @@ impl ShownDay {
     }
 }
 
-/// The trace with its amounts rounded, which is what people look at and takes half the room.
+/// The trace with its amounts rounded to the displayed precision, which halves its size.
 fn to_the_cent(trace: &Trace) -> Trace {
     let rounded = |amount: f64| (amount * 100.0).round() / 100.0;
     let row = |row: &TraceRow| TraceRow {

@@ -1,4 +1,4 @@
-//! What a report consists of, whatever it is about.
+//! The contents of a report of any kind.
 
 use maud::Markup;
 use vertifleet_core::OutputKind;
@@ -22,33 +22,33 @@ pub struct Report<'a> {
     pub heading: String,
     /// The result in a few sentences.
     pub headline: String,
-    /// What was asked for, as names and values, at the head of the page.
+    /// The inputs, as names and values, at the head of the page.
     pub facts: Vec<(&'static str, String)>,
-    /// The command line that made it; empty if there is none.
+    /// The command line that made the report; empty if there is none.
     pub command: String,
-    /// What the reader should know before the first section.
+    /// Notes before the first section.
     pub remarks: Vec<String>,
     /// Tables and figures in their order.
     pub sections: Vec<Section>,
     /// The days that the page replays.
     pub replayed: &'a [ReplayedDay],
-    /// What the reader should know about the numbers, at the end of the page.
+    /// Notes about the numbers, at the end of the page.
     pub closing: Vec<String>,
     /// The files that the page links to.
     pub files: Files<'a>,
-    /// The kind of file that the page is, if the program recognises it by its beginning.
+    /// The format of the page, if the program recognises it by its first bytes.
     pub kind: Option<&'static OutputKind>,
 }
 
 /// The files of a report other than its page.
 #[derive(Default)]
 pub enum Files<'a> {
-    /// There are none; the page stands alone.
+    /// None; the page needs no other file.
     #[default]
     None,
-    /// The page holds its figures as files to download. Their names begin with this text.
+    /// The page contains its figures as files to download. Their names begin with this text.
     Within(String),
-    /// Figures and data stand next to the page.
+    /// Figures and data are files in the folder of the page.
     Beside(Vec<DataFile<'a>>),
 }
 
@@ -58,7 +58,7 @@ pub struct DataFile<'a> {
     pub name: &'static str,
     /// What it contains, in a few words.
     pub about: &'static str,
-    /// Makes its content.
+    /// Creates its content.
     pub content: Box<dyn Fn() -> Vec<u8> + 'a>,
 }
 
@@ -84,7 +84,7 @@ pub struct Section {
     pub figures: Vec<Figure>,
     /// The table.
     pub table: Option<Table>,
-    /// What only the page shows below them.
+    /// Content below them that only the page shows.
     pub below: Option<Markup>,
     /// Where it is shown.
     pub place: Place,
@@ -107,7 +107,7 @@ pub enum Place {
 pub struct Table {
     /// The rows with their cells.
     pub rows: Vec<Vec<String>>,
-    /// The positions of the rows that stand out, the row of names not counted.
+    /// The positions of the highlighted rows, not counting the header.
     pub best: Vec<usize>,
 }
 
@@ -145,7 +145,7 @@ pub(crate) fn difference(estimate: &Estimate, scale: f64, decimals: usize) -> St
     signed(scale * estimate.mean, decimals) + &half.unwrap_or_default()
 }
 
-/// Stands, and the chargers that are counted apart from them, as a cell.
+/// Stands, and the chargers that are counted separately from them, as a cell.
 pub(crate) fn stands(size: &Size) -> String {
     match size.chargers {
         0 => size.stands.to_string(),

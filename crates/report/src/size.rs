@@ -87,7 +87,7 @@ fn numbers(design: &DesignSummary) -> [String; 6] {
     ]
 }
 
-/// The network as it is and the design that was found, on the days of the search and on others.
+/// The current network and the design that was found, on the days of the search and on other days.
 fn designs_that_matter(report: &SizeReport) -> Section {
     let row = |name: &str, design: &DesignSummary| {
         [name.to_owned()].into_iter().chain(numbers(design)).collect()

@@ -5,14 +5,14 @@ use vertifleet_picture::numbers::{counted, dollars, grouped, signed};
 use vertifleet_study::size::{Certificate, DesignSummary, SizeReport};
 use vertifleet_study::statistics::Estimate;
 
-/// Says what was found, what it brings on days that the search has not seen, and how far from the
-/// best it can be.
+/// States the design that was found, its profit on days that were not part of the search, and its
+/// largest distance from the optimum.
 pub(crate) fn headline(report: &SizeReport) -> String {
     let parts = [better(report), found(report), again(report), certificate(report), doubts(report)];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
-/// That the network file as it is, which was not searched, is better than what was found.
+/// The warning that the current network, which was not searched, is better than the design found.
 fn better(report: &SizeReport) -> String {
     let better = report.left_out.as_ref().filter(|file| file.is_better);
     better.map_or_else(String::new, |file| {
@@ -74,7 +74,7 @@ fn again(report: &SizeReport) -> String {
     }
 }
 
-/// What is proven.
+/// The proven bound.
 fn certificate(report: &SizeReport) -> String {
     match report.certificate {
         Certificate::MostProfit { no_design_earns_more_than_usd: most, gap } => format!(
@@ -128,7 +128,7 @@ fn certificate(report: &SizeReport) -> String {
     }
 }
 
-/// What the reader should not take the answer for.
+/// The limits of the answer.
 fn doubts(report: &SizeReport) -> String {
     let mut doubts = Vec::new();
     if !report.goal_is_reached && !matches!(report.certificate, Certificate::OutOfReach { .. }) {

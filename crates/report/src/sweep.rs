@@ -9,7 +9,7 @@ use crate::report::{DataFile, Files, Place, Report, Section, Table, stands};
 use crate::sweep_headline::headline;
 use crate::sweep_tables::{self, Settings};
 
-/// Most rows of the table of cells; the files have all of them.
+/// Largest number of rows in the table of cells; the files have all of them.
 const MOST_ROWS: usize = 40;
 
 /// The report of a sweep with its files.

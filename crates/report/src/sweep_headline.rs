@@ -4,8 +4,8 @@ use vertifleet_picture::numbers::{counted, dollars, grouped};
 
 use vertifleet_study::sweep::{CellSummary, SweepReport};
 
-/// Says which design earns most, which cheaper one earns nearly as much, and which factor matters
-/// most.
+/// Names the most profitable design, a cheaper one that earns nearly as much, and the factor with
+/// the largest effect.
 pub(crate) fn headline(report: &SweepReport) -> String {
     let best = report.cell(report.best);
     let earns = |cell: &CellSummary| cell.results[0].profit_usd.written(dollars);

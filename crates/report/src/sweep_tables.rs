@@ -1,8 +1,8 @@
 //! The tables of a sweep, by cell and by day, as CSV and as Parquet.
 //!
-//! In Parquet, a setting has the narrowest type that all of its values in the design fit: whole
+//! In Parquet, a setting has the narrowest type that fits all of its values in the design: whole
 //! numbers, numbers, true or false, or else texts. So the schema does not depend on the results. In
-//! CSV, settings stand as they were given.
+//! CSV, settings are written as they were given.
 
 use serde_json::Value;
 use vertifleet_export::{Cells, TypedColumn};
@@ -40,7 +40,7 @@ pub(crate) fn cells(report: &SweepReport, settings: Settings) -> Vec<TypedColumn
     columns
 }
 
-/// What the networks of cells have.
+/// The sizes of the networks of cells.
 fn sizes(rows: &[CellRow<'_>]) -> Vec<TypedColumn> {
     let sizes = || rows.iter().map(|(cell, _)| cell.size);
     let aircraft = sizes().map(|size| size.map(|size| count(size.aircraft as u64)));
@@ -55,7 +55,7 @@ fn sizes(rows: &[CellRow<'_>]) -> Vec<TypedColumn> {
     ]
 }
 
-/// What policies did on the days of cells.
+/// The results of policies on the days of cells.
 fn results(rows: &[CellRow<'_>]) -> Vec<TypedColumn> {
     let policy = rows.iter().map(|(_, result)| result.map(|result| result.policy.clone()));
     let reason = rows.iter().map(|(cell, result)| match result {
@@ -166,7 +166,7 @@ enum Kind {
 }
 
 impl Kind {
-    /// The narrowest type that all values of a design fit.
+    /// The narrowest type that fits all values of a design.
     fn of(design: &[&Value], settings: Settings) -> Self {
         let all = |fits: fn(&Value) -> bool| design.iter().all(|value| fits(value));
         if settings == Settings::AsGiven {

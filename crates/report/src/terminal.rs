@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use crate::report::{Place, Report, Table};
 
 impl Report<'_> {
-    /// The report as text: the tables with their notes, and the headline. There is no line end
-    /// after the last line.
+    /// The report as text: the tables with their notes, and the headline. The last line has no line
+    /// end.
     pub fn text(&self) -> String {
         let mut text = String::new();
         let sections = self.sections.iter().filter(|section| section.place != Place::Page);

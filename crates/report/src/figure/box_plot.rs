@@ -2,7 +2,7 @@
 //! bound.
 //!
 //! Boxes are horizontal, one row per policy, so that names are readable and each day has a dot
-//! below the box. Rows are named, so colour carries no information that the text does not give.
+//! below the box. Rows are named, so no information depends on colour.
 
 use vertifleet_picture::axis::Scale;
 use vertifleet_picture::canvas::{
@@ -24,7 +24,7 @@ const BOX_HEIGHT: f64 = 18.0;
 const RIGHT: f64 = 92.0;
 const LONGEST_NAME: usize = 22;
 
-/// With more days the dots would run into each other and say less than the box.
+/// Largest number of days with dots: more would overlap and hide the box.
 const MOST_DOTS: usize = 400;
 
 /// The remark below the name of a reference.

@@ -1,6 +1,5 @@
-//! Day by day: by how much the best policy earns more than a reference on each day, sorted. The
-//! paper has no such figure; it shows whether a lead in the mean comes from most days or from a
-//! few.
+//! The difference in profit between the best policy and a reference on each day, sorted. The paper
+//! has no such figure; it shows whether a lead in the mean comes from most days or from a few.
 
 use std::fmt::Write as _;
 

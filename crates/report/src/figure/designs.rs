@@ -1,4 +1,4 @@
-//! The designs of a search: what each costs, what it earns or carries, and what it can at most.
+//! The designs of a search: the cost of each, its profit or passengers, and their upper bounds.
 
 use vertifleet_picture::axis::Scale;
 use vertifleet_picture::canvas::{Anchor, Canvas, Lettering, Stroke};

@@ -1,5 +1,5 @@
-//! How two factors of a sweep act together: a cell for each pair of their values, darker where the
-//! first policy earns more.
+//! The joint effect of two factors of a sweep: a cell for each pair of their values, darker where
+//! the first policy earns more.
 
 use vertifleet_picture::canvas::{Anchor, Canvas, Lettering, Look, Stroke, shortened};
 use vertifleet_picture::numbers::{grouped, typeset};
@@ -15,7 +15,7 @@ const TOP: f64 = 96.0;
 const RIGHT: f64 = 24.0;
 const ROW: f64 = 34.0;
 const BOTTOM: f64 = 60.0;
-/// With more values in a direction, numbers no longer fit.
+/// Largest number of values in a direction: more leave no space for numbers.
 const MOST_VALUES: usize = 14;
 
 /// The figure of the two factors that matter most; `None` if there are not two, if they have too

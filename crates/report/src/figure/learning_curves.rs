@@ -19,7 +19,8 @@ const KEY_LINE: f64 = 41.0;
 const PLOT_HEIGHT: f64 = 272.0;
 const BOTTOM: f64 = 52.0;
 
-/// Number of markers on a line: enough to tell lines apart in grey, few enough to see the line.
+/// Number of markers on a line: enough to distinguish lines in grey, few enough not to cover the
+/// line.
 const MARKERS: usize = 9;
 
 /// The texts of a figure of this kind.
@@ -127,8 +128,8 @@ fn draw(
     Some(Figure { slug: chart.slug, caption: caption(summary, chart), svg: canvas.into_svg() })
 }
 
-/// Says which network's days the curves belong to: every policy that has one was trained on the
-/// network of the study.
+/// Names the network of the curves' days: every policy that has a curve was trained on the network
+/// of the study.
 fn caption(summary: &ComparisonReport, chart: &Chart) -> String {
     let fig_3 = match chart.slug {
         FIG_3 if summary.is_of_the_paper() => "Corresponds to Fig. 3 of the paper. ",

@@ -1,5 +1,5 @@
-//! How profit follows each factor of a sweep: a panel for each factor, a line with its band for
-//! each policy.
+//! Profit as a function of each factor of a sweep: a panel for each factor, and a line with its
+//! band for each policy.
 
 use vertifleet_picture::axis::Scale;
 use vertifleet_picture::canvas::{Anchor, Canvas, Lettering, Look, Point, Stroke, shortened};
@@ -102,7 +102,7 @@ fn draw_panel(canvas: &mut Canvas, effect: &Effect, panel: &Panel, y: &Scale) {
     }
 }
 
-/// The horizontal place of each level: to scale where values are numbers, else evenly spaced.
+/// The horizontal place of each level: to scale if the values are numbers, else evenly spaced.
 fn places(effect: &Effect, panel: &Panel) -> Vec<f64> {
     let values: Option<Vec<f64>> = effect.levels.iter().map(|level| level.value).collect();
     if let Some(values) = values {

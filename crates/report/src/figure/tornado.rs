@@ -1,5 +1,5 @@
-//! Which factor of a sweep matters most: for each, how far profit moves between its values, the
-//! largest first.
+//! The factors of a sweep by their effect: the range of profit over the values of each, largest
+//! first.
 
 use vertifleet_picture::axis::Scale;
 use vertifleet_picture::canvas::{Anchor, Canvas, Lettering, Look, Stroke, shortened};

@@ -1,4 +1,5 @@
-//! Tests that a report is whole, self-contained, escaped and paired, and what the terminal shows.
+//! Tests that a report is complete, self-contained, escaped and paired, and tests the terminal's
+//! text.
 
 use crate::made_up;
 use std::fs;
@@ -43,7 +44,7 @@ fn the_table_of_one_policy_on_one_day_leaves_undefined_numbers_out() {
     insta::assert_snapshot!(text(&study));
 }
 
-/// Five policies on days with upper bounds, and a reference that knows the days.
+/// Five policies on days with upper bounds, and a reference that knows the days in advance.
 fn bounded(days: usize) -> ComparisonRecords {
     let mut study = made_up::study(days);
     let best = study.policies[4].clone();

@@ -1,4 +1,4 @@
-//! The page of a day is one file: its pictures, the files of these, and the replay are in it.
+//! The page of a day is one file, which contains its pictures, their files and the replay.
 
 use std::sync::Arc;
 

@@ -1,5 +1,5 @@
-//! What an explanation says adds up to the day, and what a change is worth is the difference of two
-//! solved days.
+//! The parts of an explanation add up to the day, and the value of a change is the difference
+//! between two solved days.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! What studies and their reports promise.
+//! Tests of the reports of studies.
 
 mod comparison;
 mod day;

@@ -1,4 +1,4 @@
-//! What a search for a design promises: no design passes what it proves, a search that was
+//! The promises of a search for a design: no design exceeds the proven bound, a search that was
 //! interrupted ends with the same bytes, and the network file of the best design is that design.
 
 use std::collections::BTreeMap;

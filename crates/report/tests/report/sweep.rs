@@ -1,4 +1,4 @@
-//! What a sweep promises: cells are the changed networks on the same days, and a sweep that was
+//! The promises of a sweep: cells are the changed networks on the same days, and a sweep that was
 //! interrupted ends with the same bytes as one that was not.
 
 use std::collections::BTreeMap;
@@ -98,8 +98,8 @@ fn an_interrupted_sweep_ends_with_the_same_bytes() {
     let journal = &expected[JOURNAL];
     for kept in [0, 10, journal.len() / 3, journal.len() / 2, journal.len() - 1] {
         let folder = tempfile::tempdir().expect("a folder");
-        // A journal that ends within its first line is refused, and the sweep begins again only
-        // if it is empty.
+        // A journal that ends within its first line is refused, and the sweep starts again only if
+        // it is empty.
         let head = journal.iter().position(|&byte| byte == b'\n').expect("a line") + 1;
         let kept = if kept == 0 { 0 } else { kept.max(head) };
         fs::write(folder.path().join(JOURNAL), &journal[..kept]).expect("room");
