@@ -1,5 +1,5 @@
-//! The networks' speed for one decision, for decisions in batches, and for a chunk of an update,
-//! each on one thread.
+//! The speed of the networks: for one decision, for decisions in batches, and for a chunk of an
+//! update, each on one thread.
 
 mod work;
 

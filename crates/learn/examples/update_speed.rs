@@ -5,7 +5,7 @@
 //! update_speed [decisions per step] [decisions per chunk] [seconds]
 //! ```
 //!
-//! It uses as many threads as `RAYON_NUM_THREADS` says.
+//! `RAYON_NUM_THREADS` sets its number of threads.
 
 #[path = "../benches/work/mod.rs"]
 mod work;

@@ -3,9 +3,9 @@
 //! The features of `gcaps` and `mlp` grow with the number of vertiports, and so do their weights.
 //! Here the features of a node describe what a flight to that vertiport means to the deciding
 //! aircraft, in dimensionless numbers, so the graph capsules and the attention of §IV have the same
-//! weights for any number of vertiports and aircraft. The network does not decide alone: the
-//! day's bid prices say what each choice is worth, and the network says what to add to that
-//! ([`crate::scorer`]). It learns by [imitation](crate::imitation) of roll-outs.
+//! weights for any number of vertiports and aircraft. A choice is worth its value at the day's bid
+//! prices plus a correction by the network ([`crate::scorer`]). The policy learns by
+//! [imitation](crate::imitation) of roll-outs.
 
 use std::sync::Arc;
 
@@ -18,16 +18,16 @@ use crate::model::Model;
 use crate::rollouts::RolloutPlayer;
 use crate::scorer::Scorer;
 
-/// Decides by the day's prices and by a network that scores the choices that are worth nearly as
-/// much as the best.
+/// Decides by the day's prices and by a network that scores the choices whose worth is close to
+/// that of the best.
 pub struct GcapsX {
     scorer: Scorer,
     prices: PriceMemory,
     shortlist: Shortlist,
     /// The choices with their worth by prices and network, dollars.
     scored: Vec<PricedChoice>,
-    /// How many choices are rolled out, and what plays the roll-outs; `None` if the policy decides
-    /// at once.
+    /// The number of choices that are rolled out, and the player of the roll-outs; `None` if the
+    /// policy decides at once.
     rollouts: Option<(usize, RolloutPlayer)>,
 }
 

@@ -25,7 +25,7 @@ fn opinionated(seed: u64) -> Arc<Weights> {
     with_opinions(&small(), seed)
 }
 
-/// First weights with a last layer that is made large enough to change choices.
+/// Initial weights with a last layer that is large enough to change choices.
 pub(crate) fn with_opinions(policy: &Architecture, seed: u64) -> Arc<Weights> {
     let net = policy.network(2);
     let mut params = net.init(seed);
@@ -71,8 +71,7 @@ fn weights_of_zeros_decide_as_prices_do() {
 #[test]
 fn the_less_is_at_stake_the_less_weights_add() {
     let paper = &days()[0];
-    // The size of the network's additions on a day on which only one in this many passengers is
-    // left.
+    // The size of the network's additions on a day with only this share of the passengers.
     let addition_usd = |one_in: u32| {
         let mut day = Scenario::clone(paper).into_day();
         day.demand.iter_mut().flat_map(Matrix::cells_mut).for_each(|cell| *cell /= one_in);

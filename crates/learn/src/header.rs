@@ -14,7 +14,7 @@ pub(crate) const FORMAT: &str = "vertifleet-weights/2";
 const MEMBERS: [&str; 8] =
     ["network", "policy", "shape", "feature_scales", "settings", "seed", "commit", "steps"];
 
-/// Describes weights and says where they came from.
+/// Describes weights and their origin.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Header {
     pub(crate) format: &'static str,
@@ -25,8 +25,7 @@ pub struct Header {
     pub policy: Architecture,
     /// The number of vertiports and the numbers of features.
     pub shape: FeatureShape,
-    /// What the features are divided by; `None` for policies whose features are relative to the
-    /// day.
+    /// The divisors of the features; `None` for policies whose features are relative to the day.
     pub feature_scales: Option<FeatureScales>,
     /// The training settings; `None` if another program trained the weights in a way that these
     /// settings cannot describe.
@@ -37,8 +36,8 @@ pub struct Header {
     pub commit: String,
     /// The number of decisions that had been learned from when these weights were kept.
     pub steps: u64,
-    /// The [hash](crate::Model::sha256) of the weights that the run began with; `None` if they were
-    /// fresh, or if nothing is known of them.
+    /// The [hash](crate::Model::sha256) of the initial weights of the run; `None` if they were
+    /// drawn from the seed, or if their origin is unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub begun_with: Option<String>,
 }
@@ -90,7 +89,7 @@ impl Header {
         if format != FORMAT {
             return Err(format!("format must be {FORMAT:?}, found {format:?}"));
         }
-        // A value that is not known must be null; it must not be left out.
+        // An unknown value must be null; it must not be left out.
         if let Some(missing) = MEMBERS.iter().find(|&&member| !header.contains_key(member)) {
             return Err(format!("header: missing member {missing:?}"));
         }

@@ -1,6 +1,7 @@
 //! Imitation of roll-outs: the decisions of played days are rolled out, and the network learns to
-//! choose what the roll-outs say is best (DAgger: S. Ross, G. Gordon, D. Bagnell, *A reduction of
-//! imitation learning and structured prediction to no-regret online learning*, 2011).
+//! make the choice with the highest value in the roll-outs (DAgger: S. Ross, G. Gordon, D. Bagnell,
+//! *A reduction of imitation learning and structured prediction to no-regret online learning*,
+//! 2011).
 
 mod dataset;
 mod row;

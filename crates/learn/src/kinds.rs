@@ -42,7 +42,7 @@ mod tests {
         ways.map(|way| curve(way.curve_opening()))
     }
 
-    /// The kinds of output that a file of the repository is recognised as.
+    /// The kinds of output that the program recognises a file of the repository as.
     fn kinds(file: &str) -> Vec<OutputKind> {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
         let is_of = |kind: &OutputKind| kind.is_of(&path).expect("a file of the project");

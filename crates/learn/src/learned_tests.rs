@@ -20,7 +20,7 @@ fn small(adjacency: Adjacency) -> Architecture {
     Architecture::GcapsFull(GcapsSettings { graph, ..GcapsSettings::of_sizes(8, 2) })
 }
 
-/// The same policy twice, with different values.
+/// Two copies of a policy with the same enlarged weights.
 fn twice(policy: &Architecture) -> [Learned; 2] {
     let weights = with_opinions(policy, 1);
     [(); 2].map(|()| Learned(Scorer::new(policy, None, Arc::clone(&weights))))
@@ -105,7 +105,7 @@ fn what_is_remembered_is_what_is_seen_anew() {
     let mut remembering = policy.writer(None);
     let mut days: Vec<Simulation> = days().into_iter().map(Simulation::new).collect();
     for number in 0..400 {
-        // By turns, as in a batch, and with a different choice each time.
+        // In turns, as in a batch, and with a different choice each time.
         for simulation in &mut days {
             let Some(decision) = simulation.next_decision() else { continue };
             let view = simulation.view();
@@ -128,7 +128,7 @@ fn a_choice_that_is_rolled_out_to_the_end_is_worth_what_the_day_then_earns() {
     let [mut rolled_out, mut alone] = twice(&small(Adjacency::Complete));
     let settings =
         RolloutSettings { horizon_s: 86_400, rollouts: 2, noise: 0.0, price_weight: 0.0 };
-    // Nothing of this day is unknown.
+    // Nothing about this day is uncertain.
     let network = Network::shipped("paper").expect("a shipped network");
     let day = Arc::new(network.draw(DaySeed::validation(3).expect("a seed")));
     let mut simulation = Simulation::new(day);

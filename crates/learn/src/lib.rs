@@ -1,9 +1,9 @@
-//! Learned policies (§IV): networks of layers, the three ways to learn, weights,
-//! checkpoints, and the shipped models.
+//! Learned policies (§IV): networks of layers, the three ways to learn, weights, checkpoints, and
+//! the shipped models.
 //!
-//! This crate builds on `vertifleet-observe`. A [`Model`] holds a policy's weights and says where
-//! they came from; a [`TrainingRequest`] starts a [`TrainingRun`], which learns by PPO, by
-//! imitation of roll-outs or by evolution; a [`RunFolder`] writes the files of a run.
+//! This crate builds on `vertifleet-observe`. A [`Model`] contains a policy's weights and their
+//! origin. A [`TrainingRequest`] starts a [`TrainingRun`], which learns by PPO, by imitation of
+//! roll-outs or by evolution. A [`RunFolder`] writes the files of a run.
 //!
 //! ```
 //! use std::sync::Arc;
@@ -23,7 +23,7 @@
 //! # }
 //! ```
 //!
-//! Training, an update at a time:
+//! Training, one update at a time:
 //!
 //! ```
 //! use vertifleet_core::{Stop, World};

@@ -1,4 +1,4 @@
-//! Plays days side by side, with one inference for all of them.
+//! Plays days in parallel, with one inference for all of them.
 
 use std::sync::Arc;
 

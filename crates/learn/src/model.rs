@@ -1,4 +1,4 @@
-//! A trained policy and its file: the weights, a description of them, and where they came from.
+//! A trained policy and its file: the weights, a description of them, and their origin.
 //!
 //! A file is complete in itself: architecture, features and settings are in its header, so the
 //! policy runs without the network file that it was trained on. Weights of `gcaps`, `mlp` and
@@ -21,7 +21,7 @@ use crate::learned::Learned;
 use crate::nn;
 use crate::tensor_file;
 
-/// Larger files are not read. No weight file of this program comes near this size.
+/// Largest weight file, bytes. No weight file of this program comes near this size.
 const LIMIT_BYTES: u64 = 512 << 20;
 /// Weights that fit any number of vertiports have the same shapes for every number; the layout is
 /// made for this one.
@@ -39,8 +39,8 @@ impl Model {
     /// A model with this header and these parameters.
     ///
     /// # Errors
-    /// Returns the rule that is broken if the header is not valid, or if the parameters are not
-    /// finite or not as many as the network has.
+    /// Returns the rule that is broken if the header is not valid, if a parameter is not finite, or
+    /// if their number is not that of the network.
     pub fn new(header: Header, params: Vec<f32>) -> Result<Self, String> {
         let net = header.network_of_layers(SOME_VERTIPORTS)?;
         if params.len() != net.layout().len() {
@@ -56,7 +56,7 @@ impl Model {
         }
     }
 
-    /// Describes the weights and says where they came from.
+    /// Describes the weights and their origin.
     pub fn header(&self) -> &Header {
         &self.header
     }
@@ -77,7 +77,7 @@ impl Model {
     }
 
     /// The network of layers for a day with `vertiports` vertiports. If the weights fit one number
-    /// only, the network is for that number, whatever `vertiports` is.
+    /// only, the network is for that number, regardless of `vertiports`.
     ///
     /// # Panics
     /// Panics if the weights fit any number and `vertiports` is 0 or above 4,096.
@@ -88,7 +88,7 @@ impl Model {
         }
     }
 
-    /// The weights in the form that passes take.
+    /// The weights in the form that passes use.
     pub fn weights(&self) -> nn::Weights {
         self.net.weights(self.params.clone())
     }
@@ -135,7 +135,7 @@ impl Model {
         digest.iter().fold(String::new(), |text, byte| text + &format!("{byte:02x}"))
     }
 
-    /// Writes the weight file, whole or not at all.
+    /// Writes the weight file, completely or not at all.
     ///
     /// # Errors
     /// Returns an error if the folder cannot be written to.
@@ -147,7 +147,7 @@ impl Model {
     ///
     /// # Errors
     /// Returns an error if the file cannot be read, is not a weight file, or has other tensors than
-    /// the policy that its header names; the error says what differs.
+    /// the policy that its header names; the error names the difference.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let bytes = vertifleet_core::read_at_most(path, LIMIT_BYTES)?;
         Self::from_bytes(&bytes, &path.display().to_string())
@@ -165,8 +165,8 @@ impl Model {
 fn parse(bytes: &[u8]) -> Result<Model, String> {
     let header = Header::read(tensor_file::header(bytes)?)?;
     let net = header.network_of_layers(SOME_VERTIPORTS)?;
-    // A header may claim more weights than fit in memory, so first check that the file is long
-    // enough for them.
+    // A header may claim more weights than fit in memory, so check first that the file is long
+    // enough.
     if net.layout().len() > bytes.len() / 4 {
         return Err(format!("{} weights do not fit in the file", net.layout().len()));
     }

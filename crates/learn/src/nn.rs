@@ -2,9 +2,9 @@
 //! simulator and without randomness except for the first weights.
 //!
 //! All weights of a network are one flat vector that a [`Layout`] describes, so the optimiser, the
-//! clipping and the files need not know the layers. A [`NeuralNetwork`] is immutable and shared; a
-//! pass works in a [`Workspace`], which is allocated once for the largest batch. Everything here
-//! runs on one thread: callers cut batches into chunks, give each a workspace and a [`Gradient`],
+//! clipping and the files do not depend on the layers. A [`NeuralNetwork`] is immutable and shared;
+//! a pass works in a [`Workspace`], which is allocated once for the largest batch. Everything here
+//! runs on one thread: callers split batches into chunks, give each a workspace and a [`Gradient`],
 //! and add the gradients up in a fixed order.
 
 mod architecture;

@@ -1,11 +1,11 @@
 //! Roll-outs in which a learned policy decides for every aircraft. Each choice of a decision is
-//! played on several times, with what the policy thinks of all later choices perturbed by a little
-//! noise, the same for every choice that is compared. The value of a choice is the mean of what the
-//! fleet has earned by then and is worth from there on.
+//! played on several times. The policy's scores of all later choices are perturbed by a little
+//! noise, which is the same for every choice that is compared. The value of a choice is the mean,
+//! over its roll-outs, of the profit at their end plus the worth of the fleet there.
 //!
-//! `gcaps-x` decides by them if it is told to, and any policy that learns by imitation can learn
-//! from its own. All roll-outs advance side by side, one decision each at a time, so that the
-//! network scores them together.
+//! `gcaps-x` can decide by them, and any policy that learns by imitation can learn from its
+//! roll-outs. All roll-outs advance in parallel, one decision each at a time, so that the network
+//! scores them together.
 
 use vertifleet_core::{Time, VertiportIx};
 use vertifleet_observe::PricedDecision;
@@ -18,10 +18,10 @@ use crate::scorer::Scorer;
 /// choices are rolled out at all.
 pub(crate) const ROLLOUTS: RolloutSettings =
     RolloutSettings { horizon_s: 7_200, rollouts: 8, noise: 0.06, price_weight: 0.5 };
-/// Why a roll-out that the network scores always has a decision.
+/// The reason why a roll-out that the network scores always has a decision.
 const ASKED: &str = "rollouts that have come to their end are not asked";
-/// Most decisions that are scored at once: one of every roll-out of all choices, with the usual
-/// number of roll-outs.
+/// Largest number of decisions that are scored at once: one of every roll-out of all choices, with
+/// the usual number of roll-outs.
 pub(crate) const MOST_ROWS: usize = Shortlist::MOST * ROLLOUTS.rollouts as usize;
 
 /// The working memory of the roll-outs of a decision.
@@ -44,8 +44,8 @@ struct Rollout {
     /// Its number among the roll-outs of the same choice; number 0 has no noise.
     number: u32,
     simulation: Imagined,
-    /// The profit so far plus the worth of the fleet at the end of the roll-out; `None` until it
-    /// gets there.
+    /// The profit so far plus the worth of the fleet at the end of the roll-out; `None` before the
+    /// end.
     usd: Option<f64>,
     /// The decision to be taken next, between the choices in `listed`.
     next: Option<Decision>,
@@ -165,7 +165,7 @@ impl Rollout {
         PricedDecision::of(self.simulation.view(), self.next.as_ref().expect(ASKED), prices)
     }
 
-    /// Takes the choice that a row of the scorer gives.
+    /// Takes the choice that a row of the scorer returns.
     fn follow(
         &mut self,
         scorer: &Scorer,

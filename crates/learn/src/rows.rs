@@ -1,5 +1,5 @@
-//! Observations of any number of decisions on days with one number of vertiports, side by side, as
-//! a network takes them. The memory grows with the number of rows and is kept.
+//! Observations of decisions on days with one number of vertiports, row by row, in the form in
+//! which a network reads them. The memory grows with the number of rows and is reused.
 
 use vertifleet_observe::{Row, Shape};
 
@@ -19,7 +19,7 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// No rows yet, of what a policy observes of days with this number of vertiports.
+    /// Zero rows, for a policy's observations of days with this number of vertiports.
     pub(crate) fn new(policy: &Architecture, vertiports: usize) -> Self {
         Self {
             shape: policy.shape(vertiports),
@@ -32,8 +32,8 @@ impl Rows {
         }
     }
 
-    /// Rows with the features and edges of earlier [`inputs`](Self::inputs), and
-    /// with their masks where the features do not tell them.
+    /// Rows with the features and edges of earlier [`inputs`](Self::inputs), and with their masks
+    /// where the features do not contain them.
     pub(crate) fn of(
         policy: &Architecture,
         vertiports: usize,
@@ -105,7 +105,7 @@ impl Rows {
         self.clock[at] = from.clock[row];
     }
 
-    /// Adds a row, which `write` writes.
+    /// Adds a row; `write` fills it.
     pub(crate) fn push(&mut self, write: impl FnOnce(&mut Row<'_>)) {
         let row = self.len();
         self.resize(row + 1);

@@ -1,9 +1,9 @@
-//! A training run: what it is asked to do, how it advances, and what it leaves.
+//! A training run: its request, its progress and its files.
 //!
 //! There are three ways to learn, [PPO](crate::ppo), for `gcaps` and `mlp`,
-//! [imitation](crate::imitation) and [evolution](crate::evolution). Callers see one interface: a
-//! [`TrainingRun`] is advanced until it is done, and can be set aside and resumed. A [`RunFolder`]
-//! does that and writes the files.
+//! [imitation](crate::imitation) and [evolution](crate::evolution). All of them have one interface:
+//! a caller advances a [`TrainingRun`] until it is done, and can save and resume it. A
+//! [`RunFolder`] does that and writes the files.
 //!
 //! Training days, validation days and comparison days come from disjoint ranges of seeds
 //! (`DaySeed`), so no run can ever learn or choose on a day that it is later compared on.
@@ -27,19 +27,18 @@ use crate::model::Model;
 use crate::nn::{Architecture, NeuralNetwork};
 use crate::settings::TrainingSettings;
 
-/// What a training run is asked to do.
+/// The inputs of a training run.
 #[derive(Debug, Clone)]
 pub struct TrainingRequest {
-    /// What the days that are learned from are drawn from; imitation also learns from days of
-    /// random networks.
+    /// The source of the training days; imitation also learns from days of random networks.
     pub world: World,
     /// The kind of the policy, with its sizes.
     pub policy: Architecture,
     /// The settings of the way to learn that this policy uses.
     pub settings: TrainingSettings,
-    /// The seed of the run; first weights, days and choices follow from it.
+    /// The seed of the run; initial weights, days and choices follow from it.
     pub seed: u32,
-    /// Weights to begin with; without them, the first weights follow from the seed.
+    /// The initial weights; without them, they are drawn from the seed.
     pub begin_with: Option<Model>,
     /// The commit of the program, for the header of the weights.
     pub commit: String,
@@ -48,7 +47,7 @@ pub struct TrainingRequest {
 /// A run in progress. It advances by one update of PPO, one round of imitation or one generation of
 /// evolution at a time.
 pub trait TrainingRun: Send {
-    /// Whether everything that was asked for has been learned.
+    /// Whether the run has learned everything that was requested.
     fn is_done(&self) -> bool;
 
     /// How much of the work is done.
@@ -59,18 +58,18 @@ pub trait TrainingRun: Send {
     ///
     /// # Errors
     /// Returns [`Error::Stopped`] soon after `stop` is requested, [`Error::Diverged`] if a weight
-    /// is infinite or NaN, or an error if the training days run out. After a stop the run is as it
-    /// was before the call.
+    /// is infinite or NaN, or an error if the training days run out. After a stop the run is in the
+    /// state before the call.
     fn advance(&mut self, stop: &Stop, worked: &(dyn Fn(u64) + Sync)) -> Result<(), Error>;
 
     /// The learning curve so far.
     fn curve(&self) -> Curve;
 
-    /// The policy that would be kept now. With PPO and with evolution, it has the weights that did
-    /// best on the validation days so far.
+    /// The current policy. With PPO and with evolution, it has the weights that did best on the
+    /// validation days so far.
     fn model(&self) -> Model;
 
-    /// Writes a checkpoint, whole or not at all.
+    /// Writes a checkpoint, completely or not at all.
     ///
     /// # Errors
     /// Returns an error if the file cannot be written.
@@ -88,8 +87,8 @@ pub struct Work {
     pub units: &'static str,
 }
 
-/// The sizes of a run's policy of this kind: those of the weights that it begins with, or else the
-/// usual ones. `None` if there is no such kind.
+/// The sizes of a run's policy of this kind: those of the initial weights if they are given, or
+/// else the defaults. `None` if there is no such kind.
 pub fn sizes(kind: &str, begin_with: Option<&Model>) -> Option<Architecture> {
     let begun = begin_with.filter(|model| model.kind() == kind);
     begun.map_or_else(|| Architecture::named(kind), |model| Some(model.header().policy.clone()))
@@ -130,8 +129,8 @@ impl TrainingRequest {
         self.settings.learner().begin(&self, asked, checkpoint)
     }
 
-    /// Refuses weights to begin with that are of another policy, or that see other numbers than
-    /// those of this run.
+    /// Refuses initial weights that belong to another policy, or whose observation has other
+    /// numbers than that of this run.
     fn check_begin(&self) -> Result<(), Error> {
         let Some(model) = &self.begin_with else { return Ok(()) };
         let bad = |rule: &str| {
@@ -154,7 +153,7 @@ impl TrainingRequest {
         Ok(())
     }
 
-    /// The hash of the weights to begin with.
+    /// The hash of the initial weights.
     pub(crate) fn begun_with(&self) -> Option<String> {
         self.begin_with.as_ref().map(Model::sha256)
     }
@@ -178,7 +177,7 @@ pub(crate) struct RunIdentity {
     pub(crate) policy: Architecture,
     pub(crate) settings: TrainingSettings,
     pub(crate) seed: u32,
-    /// The hash of the weights that the run began with.
+    /// The hash of the initial weights of the run.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) begun_with: Option<String>,
 }

@@ -1,8 +1,8 @@
-//! What makes a policy of weights: its observation and its network. A scorer observes any number of
-//! decisions side by side and scores their choices.
+//! A policy's scorer: its observation and its network. A scorer observes decisions, any number of
+//! them at a time, and scores their choices.
 //!
-//! With the logits of `gcaps-x`, a choice is worth what the day's prices say and what the network
-//! adds:
+//! With the logits of `gcaps-x`, the worth of a choice is its worth at the day's prices plus the
+//! network's addition:
 //!
 //! ```text
 //! worth_j = worth of j at the prices  +  logit_j * unit / 20
@@ -10,8 +10,7 @@
 //!
 //! where the unit is the profit of a typical full flight, or less if the decision has less at stake
 //! ([`PricedDecision::addition_usd`]). A network of zeros adds nothing, so it decides as `prices`
-//! does. Only the choices of a [`Shortlist`] are scored, which are worth nearly as much as the
-//! best.
+//! does. Only the choices of a [`Shortlist`] are scored, whose worth is close to that of the best.
 //!
 //! The other policies decide by their logits alone, between all feasible choices.
 
@@ -26,10 +25,11 @@ use crate::nn::{Architecture, NeuralNetwork, Weights, Workspace};
 use crate::rollouts::MOST_ROWS;
 use crate::rows::Rows;
 
-/// Most decisions per inference, and most vertiports of all of them; larger batches are not faster.
+/// Largest number of decisions per inference, and of their vertiports; larger batches are not
+/// faster.
 const MOST_DECISIONS: usize = 256;
 const MOST_NODES: usize = 2_048;
-/// Why there is a network of the right size when decisions are added.
+/// The reason why there is a network of the right size when decisions are added.
 const CLEARED: &str = "rows are cleared before they are added";
 
 pub(crate) struct Scorer {
@@ -41,7 +41,7 @@ pub(crate) struct Scorer {
     shortlist: Shortlist,
 }
 
-/// What depends on the number of vertiports.
+/// The parts that depend on the number of vertiports.
 struct Sized {
     net: NeuralNetwork,
     workspace: Workspace,
@@ -67,7 +67,7 @@ impl Scorer {
         self.architecture.observation() == Observation::Priced
     }
 
-    /// Forgets all decisions, and makes ready for those of days with this many vertiports.
+    /// Removes all decisions, and prepares for those of days with this many vertiports.
     pub(crate) fn clear(&mut self, vertiports: usize) {
         match &mut self.sized {
             Some(sized) if sized.rows.vertiports() == vertiports => sized.rows.clear(),
@@ -80,7 +80,7 @@ impl Scorer {
         }
     }
 
-    /// Whether as many decisions have been added as fit.
+    /// Whether the scorer has room for no further decision.
     pub(crate) fn is_full(&self) -> bool {
         let rows = &self.sized.as_ref().expect(CLEARED).rows;
         rows.len() >= most_decisions(rows.vertiports())
@@ -104,7 +104,7 @@ impl Scorer {
         net.forward(&self.weights, rows.inputs(), workspace);
     }
 
-    /// Scores one decision, in row 0. Returns its logits, minus infinity for what cannot be chosen.
+    /// Scores one decision, in row 0. Returns its logits, minus infinity for infeasible choices.
     pub(crate) fn score(
         &mut self,
         view: View<'_>,
@@ -154,7 +154,7 @@ impl Scorer {
         }
     }
 
-    /// Writes down the choices that it decides between in roll-outs.
+    /// Lists the choices that it decides between in roll-outs.
     pub(crate) fn list(&mut self, scene: PricedDecision<'_>, listed: &mut Vec<PricedChoice>) {
         let PricedDecision { view, decision, prices, .. } = scene;
         listed.clear();
@@ -166,9 +166,9 @@ impl Scorer {
         }
     }
 
-    /// A choice with what it is worth by a row of the latest [`forward`](Self::forward), dollars.
-    /// Only differences count. A logit of 1 is worth the unit of the samples that the network
-    /// learned from, divided by [`LOGITS_A_UNIT`].
+    /// A choice with its worth by a row of the latest [`forward`](Self::forward), dollars. Only
+    /// differences count. A logit of 1 is worth the unit of the samples that the network learned
+    /// from, divided by [`LOGITS_A_UNIT`].
     pub(crate) fn rated(
         &self,
         row: usize,

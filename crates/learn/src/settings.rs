@@ -224,7 +224,7 @@ pub(crate) fn first_difference(
     differs.map(|((name, own), (_, other))| (name, own.to_string(), other.to_string()))
 }
 
-/// Refuses a value outside of its bounds.
+/// Refuses a value outside its bounds.
 pub(crate) fn within(name: &str, value: f64, low: f64, high: f64) -> Result<(), Error> {
     if (low..=high).contains(&value) {
         return Ok(());

@@ -1,4 +1,4 @@
-//! The validation days of a run: what a policy earns there compared with `prices`.
+//! The validation days of a run: the profit of a policy compared with that of `prices`.
 
 use std::sync::Arc;
 
@@ -29,8 +29,8 @@ pub(crate) struct Validated {
 }
 
 impl ValidationDays {
-    /// `count` days of a world, and as many of random networks and [`random_city`], by turns, where
-    /// `of_any_size` is set.
+    /// This number of days of a world, and, if `of_any_size` is set, as many of random networks and
+    /// [`random_city`], in turns.
     pub(crate) fn of(world: &World, count: u32, of_any_size: bool) -> Result<Self, Error> {
         let random = if of_any_size { count } else { 0 };
         let of_world = |day| world.network(Purpose::Validation, day);
@@ -41,7 +41,7 @@ impl ValidationDays {
         Ok(Self { own: drawn(of_world, count)?, random: drawn(at_random, random)? })
     }
 
-    /// Lets a model play the days.
+    /// Plays the days with a model.
     pub(crate) fn measure(&self, model: &Model) -> Validated {
         let [own, random] = [&self.own, &self.random].map(|days| means(model, days));
         Validated {

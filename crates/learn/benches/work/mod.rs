@@ -8,7 +8,7 @@ use vertifleet_learn::nn::{
     Architecture, Gradient, Inputs, NeuralNetwork, Shape, Slopes, Weights, Workspace,
 };
 
-/// Number of gradients that are filled side by side.
+/// Number of gradients that are filled in parallel.
 const LANES: usize = 8;
 const VERTIPORTS: usize = 8;
 
@@ -34,7 +34,7 @@ pub(crate) struct Decisions {
     value_slopes: Vec<f32>,
 }
 
-/// Numbers in [0, 1) that show no obvious pattern.
+/// Numbers in [0, 1) without an obvious pattern.
 fn spread(len: usize, pace: f32) -> Vec<f32> {
     (0..len).map(|at| (at as f32 * pace).fract()).collect()
 }

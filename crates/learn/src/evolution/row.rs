@@ -10,8 +10,9 @@ pub struct EvolutionRow {
     pub generation: u32,
     /// Number of decisions taken on training days so far.
     pub decisions: u64,
-    /// By how much the days of weights moved along a direction differ from those of weights moved
-    /// against it: the root of the mean square over the pairs, as a share of what these days earn.
+    /// The effect of the perturbations: the root mean square, over the pairs, of the difference
+    /// between the days of weights moved along a direction and those of weights moved against it.
+    /// It is a share of the profit of these days.
     pub difference: f64,
     /// Mean reward on the network's validation days, if it was measured after this generation.
     pub validation_reward: Option<f64>,

@@ -1,5 +1,5 @@
-//! A training run by evolution: moves the weights, plays days with them, goes where days earn more,
-//! and keeps the weights that did best on the validation days.
+//! A training run by evolution: perturbs the weights, plays days with them, moves towards higher
+//! profit, and keeps the weights that did best on the validation days.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -50,7 +50,7 @@ struct Progress {
     best_params: Vec<f32>,
 }
 
-/// What days brought that were played with the weights moved along a direction or against it.
+/// The results of days that were played with the weights moved along a direction or against it.
 struct DirectionScore {
     /// The sum over the days of profit over the [unit](day_unit_usd) of the day.
     score: f64,
@@ -83,7 +83,8 @@ impl Learner for EvolutionSettings {
         let numbers = progress.curve.iter().map(|row| row.generation);
         checkpoint::check_steps("generations", numbers, self.generations)?;
         let is_done = progress.curve.len() >= self.generations as usize;
-        // A run that is done measures nothing more, and what `prices` earns there takes its time.
+        // A finished run measures nothing more, and playing `prices` on the validation days takes
+        // time.
         let days = if is_done { 0 } else { self.validation_days };
         let validation = ValidationDays::of(&plan.world, days, plan.policy.fits_any_size())?;
         let world = plan.world.clone();
@@ -154,7 +155,8 @@ impl EvolutionRun {
         Ok(row)
     }
 
-    /// The days of the next generation, with days of as many vertiports side by side.
+    /// The days of the next generation, with days of the same number of vertiports next to each
+    /// other.
     fn days(&self) -> Result<Vec<Arc<Scenario>>, Error> {
         let (round, EvolutionSettings { days, random_share, .. }) =
             (self.generations_done(), self.settings);
@@ -192,9 +194,8 @@ impl EvolutionRun {
             .collect()
     }
 
-    /// Takes a step of Adam along the directions, each in proportion to how much more the days
-    /// along it earned than those against it. The slopes are measured in the root of the mean
-    /// square of the differences.
+    /// Takes a step of Adam. Each direction counts in proportion to how much more the days along it
+    /// earned than those against it, divided by the root mean square of these differences.
     fn step(&mut self, seed: u64, differences: &[f64], root: f64) {
         let mut slopes = vec![0.0; self.params.len()];
         for (pair, difference) in (0..).zip(differences) {
@@ -257,24 +258,24 @@ fn mean_gain(found: Validated) -> f64 {
     found.random_gain.map_or(found.gain, |random| f64::midpoint(found.gain, random))
 }
 
-/// The difference that moved weights make, as a share of the mean score; 0 where nothing is earned,
-/// because a checkpoint cannot hold a number that is not finite.
+/// A difference in score as a share of the mean score; 0 where nothing is earned, because a
+/// checkpoint must contain finite numbers.
 fn share_of(difference: f64, mean: f64) -> f64 {
     if mean == 0.0 { 0.0 } else { difference / mean.abs() }
 }
 
-/// The profit of a typical full flight of every aircraft of a day, dollars. Divided by it, days of
-/// large and of small fleets count alike.
+/// The profit of a typical full flight of every aircraft of a day, dollars. Profits are divided by
+/// it, so that days of large and of small fleets have equal weight.
 fn day_unit_usd(day: &Arc<Scenario>) -> f64 {
     let simulation = Simulation::new(Arc::clone(day));
     let units_usd = units_usd(simulation.view());
     day.aircraft.iter().map(|aircraft| units_usd[aircraft.kind.at()]).sum()
 }
 
-/// Plays days of which those with as many vertiports stand side by side.
+/// Plays days, of which those with the same number of vertiports are next to each other.
 fn play_days(model: &Model, days: &[Arc<Scenario>]) -> Vec<DayTotals> {
     let mut policy = model.policy(1);
-    // It keeps the prices of one day at a time.
+    // It caches the prices of one day at a time.
     if model.header().policy.observation() == Observation::Priced {
         return days.iter().map(|day| played(policy.as_mut(), day)).collect();
     }

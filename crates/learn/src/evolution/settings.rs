@@ -5,29 +5,29 @@ use serde::{Deserialize, Serialize};
 use crate::error::Error;
 use crate::settings::within;
 
-/// What a run plays, and how far it goes.
+/// The days of a run, and its length.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EvolutionSettings {
     /// Number of generations.
     pub generations: u32,
     /// Number of random directions in a generation; weights are moved along each and against it.
     pub pairs: u32,
-    /// Number of days in a generation, which all its weights play.
+    /// Number of days in a generation; all its weights play the same days.
     pub days: u32,
     /// Share of the days that come from random networks.
     pub random_share: f64,
-    /// By how much each weight is moved.
+    /// The size of the perturbation of each weight.
     pub noise: f32,
     /// Adam's step size; it falls in a straight line to a tenth over the run.
     pub learning_rate: f32,
-    /// After this many generations the weights play the validation days.
+    /// Number of generations between two measurements on the validation days.
     pub eval_every: u32,
     /// Number of validation days of the network, and also of random networks.
     pub validation_days: u32,
 }
 
 impl Default for EvolutionSettings {
-    /// Noise and step size were chosen on validation days, of three pairs that were tried.
+    /// Noise and step size are the best of three pairs on validation days.
     fn default() -> Self {
         Self {
             generations: 100,

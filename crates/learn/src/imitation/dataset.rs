@@ -24,11 +24,11 @@ pub(crate) struct Samples {
     pub(crate) values: Vec<f32>,
 }
 
-/// A choice as the teacher judges it.
+/// A choice with the teacher's label.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LabelledChoice {
     pub(crate) to: VertiportIx,
-    /// What it is worth at the prices, dollars.
+    /// Its worth at the prices, dollars.
     pub(crate) worth_usd: f64,
     /// Its value by roll-outs, dollars.
     pub(crate) value_usd: f64,
@@ -40,8 +40,8 @@ impl Samples {
         Self { rows, priced: Vec::new(), values: Vec::new() }
     }
 
-    /// Adds what the teacher thinks of the decision whose row was added last. `unit_usd` is the
-    /// unit of the network's logits.
+    /// Adds the teacher's labels of the decision whose row was added last. `unit_usd` is the unit
+    /// of the network's logits.
     pub(crate) fn judge(&mut self, unit_usd: f64, choices: &[LabelledChoice]) {
         let first = self.priced.len();
         self.priced.resize(first + self.rows.vertiports(), 0.0);
@@ -74,14 +74,14 @@ impl Samples {
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Dataset(pub(crate) BTreeMap<usize, Samples>);
 
-/// The most vertiports that a network file may have.
+/// Largest number of vertiports of a network file.
 const MOST_VERTIPORTS: usize = 256;
-/// The tensors that a checkpoint has for the samples of each number of vertiports, which stands
-/// before these names. Only
-/// networks that observe edges have those, and only the features of the paper need masks.
+/// The tensors of a checkpoint for the samples of each number of vertiports, which precedes these
+/// names. Only networks that observe edges have `edges`, and only the features of the paper need
+/// masks.
 const TENSORS: [&str; 6] = ["nodes", "aircraft", "priced", "values", "edges", "masks"];
 
-/// Whether the features of a policy do not tell which vertiports may be chosen.
+/// Whether the features of a policy leave out which vertiports may be chosen.
 fn has_masks(policy: &Architecture) -> bool {
     policy.observation() == Observation::Paper
 }
@@ -113,8 +113,8 @@ impl Dataset {
         }
     }
 
-    /// All samples as a checkpoint stores them. They are stored and not computed again because
-    /// roll-outs take most of a run's time.
+    /// All samples, for a checkpoint. They are stored rather than recomputed because roll-outs take
+    /// most of a run's time.
     pub(crate) fn tensors(
         &self,
         policy: &Architecture,
@@ -146,7 +146,7 @@ impl Dataset {
 
 impl Samples {
     /// Reads the samples for one number of vertiports. Memory is allocated only for numbers that
-    /// the file really holds.
+    /// the file contains.
     fn read(
         file: &SafeTensors<'_>,
         policy: &Architecture,

@@ -12,10 +12,10 @@ pub struct ImitationRow {
     pub decisions: u64,
     /// Share of decisions in the last pass for which the network's best choice is the expert's.
     pub agreement: f64,
-    /// By how much the network's choices are better than those at the prices, by the expert's
-    /// values, in units.
+    /// Advantage of the network's choices over those at the prices, by the expert's values, in
+    /// units.
     pub lift: f64,
-    /// By how much the expert's choices are better than those at the prices, in the same units.
+    /// Advantage of the expert's choices over those at the prices, in the same units.
     pub most_lift: f64,
     /// Mean reward on the network's validation days.
     pub validation_reward: f64,

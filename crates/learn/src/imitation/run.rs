@@ -1,9 +1,9 @@
 //! A training run by imitation. Each round plays days, rolls out the decisions taken there, and
 //! learns from all decisions so far.
 //!
-//! The policy that plays the days of a round is what the earlier rounds learned; in the first round
-//! it is bid prices alone. A share of the days come from random networks, a different one each
-//! ([`World::Random`]); the other days come from the world that the run is for.
+//! The policy of the earlier rounds plays the days of a round; in the first round, bid prices do. A
+//! share of the days come from random networks, a different one each ([`World::Random`]); the other
+//! days come from the run's world.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ use crate::scorer::Scorer;
 use crate::settings::Learner;
 use crate::validation::ValidationDays;
 
-/// About how many decisions an aircraft takes on a day.
+/// Approximate number of decisions of an aircraft on a day.
 const DECISIONS_AN_AIRCRAFT: f64 = 11.0;
 
 /// A run in progress.
@@ -80,8 +80,8 @@ impl Learner for ImitationSettings {
         }
         let Begin { net, vertiports, header, params, adam, checkpoint } =
             Begin::<Progress>::of(plan, &identity, self.random_share, from)?;
-        // Which days a round plays, and the order in which it meets its samples, follow from the
-        // seed and the round's number, so that a checkpoint stores nothing else.
+        // The days of a round and the order of its samples follow from the seed and the round's
+        // number, so the checkpoint needs no generator.
         let (mut dataset, mut curve) = (Dataset::default(), Vec::new());
         if let Some(checkpoint) = checkpoint {
             let vertiports = &checkpoint.progress.vertiports;
@@ -139,7 +139,7 @@ impl ImitationRun {
         })
     }
 
-    /// Makes the round's passes over all samples so far. Returns how well the last pass decided.
+    /// Makes the round's passes over all samples so far. Returns the fit of the last pass.
     fn fit(&mut self, stop: &Stop, worked: &dyn Fn(u64)) -> Result<Fit, Error> {
         let mut fit = Fit::default();
         let (settings, done) = (&self.settings, self.rounds_done());

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::rollouts::ROLLOUTS;
 use crate::settings::within;
 
-/// What a run learns from, and how.
+/// The samples of a run, and how it learns from them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ImitationSettings {
     /// Number of rounds of playing and learning.
@@ -16,18 +16,18 @@ pub struct ImitationSettings {
     pub days: u32,
     /// Share of the days that come from random networks.
     pub random_share: f64,
-    /// About how many decisions of a day are rolled out; on a day with more decisions, a random
-    /// share of them is.
+    /// Approximate number of decisions that are rolled out on a day; on a day with more decisions,
+    /// a random share of them is.
     #[serde(default = "usual_samples")]
     pub samples: u32,
-    /// In this many of the last rounds, the policy itself decides in the roll-outs, and not the
-    /// prices.
+    /// Number of rounds at the end in which the policy, and not the prices, decides in the
+    /// roll-outs.
     #[serde(default)]
     pub own_rounds: u32,
     /// Number of passes over all samples so far in a round.
     pub passes: u32,
-    /// The run gives the mean of the weights that it began with and those that it learned; this is
-    /// the weight of the former in it, which keeps what they were good at (M. Wortsman and others,
+    /// The run returns a weighted mean of its initial and its learned weights; this is the share of
+    /// the initial ones. It preserves the abilities of the initial weights (M. Wortsman and others,
     /// *Robust fine-tuning of zero-shot models*, 2022).
     #[serde(default)]
     pub kept: f64,
@@ -35,7 +35,7 @@ pub struct ImitationSettings {
     pub learning_rate: f32,
     /// Weight of the entropy in the loss.
     pub entropy_weight: f32,
-    /// Share of decisions that are taken at random from the list while samples are collected.
+    /// Share of decisions that are taken at random from the shortlist while samples are collected.
     pub exploration: f64,
     /// How the expert rolls choices out.
     #[serde(flatten)]
@@ -44,7 +44,7 @@ pub struct ImitationSettings {
     pub validation_days: u32,
 }
 
-/// What was always rolled out before it was a setting.
+/// The number of decisions that were rolled out before it was a setting.
 fn usual_samples() -> u32 {
     400
 }

@@ -1,10 +1,10 @@
-//! The teacher: what a policy that learns by imitation sees of a decision, between which choices it
-//! decides, and what roll-outs say of them.
+//! The teacher of imitation: it observes a decision as the policy does, lists the choices, and
+//! labels each with its value in roll-outs.
 //!
 //! Roll-outs take most of a run's time, so only the [`Shortlist`](vertifleet_policy::Shortlist) is
-//! rolled out. `gcaps-x` decides between its choices alone. Policies that see no prices decide
-//! between all feasible choices. Those that are not on the shortlist are judged to be below the
-//! worst that is, by what they are worth less at the prices.
+//! rolled out. `gcaps-x` decides between its choices alone. Policies that observe no prices decide
+//! between all feasible choices. A choice that is not on the shortlist gets the value of the worst
+//! that is, less the difference of their worth at the prices.
 
 use vertifleet_core::FeatureScales;
 use vertifleet_observe::{Observation, PricedDecision, Writer};
@@ -18,8 +18,8 @@ use crate::scorer::Scorer;
 
 /// Judges decisions of days with one number of vertiports.
 pub(super) struct Teacher {
-    /// The settings of roll-outs, and what plays them: one by the prices, and one by the policy
-    /// itself.
+    /// The settings of roll-outs, and two players of them: one for the prices and one for the
+    /// policy.
     settings: RolloutSettings,
     evaluator: RolloutEvaluator,
     player: RolloutPlayer,
@@ -45,9 +45,9 @@ impl Teacher {
         }
     }
 
-    /// Adds a decision, with what roll-outs say of its choices, in which `student` decides for
-    /// every aircraft, or the prices do if there is none. `listed` is its shortlist. A decision
-    /// with nothing at stake teaches nothing and is left out.
+    /// Adds a decision with the values of its choices in roll-outs. `student` decides in them for
+    /// every aircraft; without it, the prices do. `listed` is the shortlist. A decision with
+    /// nothing at stake is left out.
     pub(super) fn judge(
         &mut self,
         scene: PricedDecision<'_>,

@@ -1,5 +1,5 @@
-//! One pass of imitation over the dataset, which moves the probabilities of choices to where the
-//! mean worth is highest.
+//! One pass of imitation over the dataset, which moves probability to the choices with the highest
+//! mean worth.
 //!
 //! With p the softmax of worth over logits (of the logits alone, for a policy that decides without
 //! prices), and A the value of each choice by roll-outs, the loss of a decision is
@@ -8,9 +8,9 @@
 //! L = -sum over j of p_j A_j  -  entropy_weight H(p)
 //! ```
 //!
-//! Noise in A does not change the mean of this loss, and the loss weighs a decision by what is at
-//! stake in it. A minibatch is cut into chunks of one number of vertiports each, which a fixed
-//! number of lanes work through, so the resulting weights do not depend on the number of threads.
+//! Noise in A does not change the mean of this loss, and the loss weights a decision by the amount
+//! at stake in it. A minibatch is cut into chunks of one number of vertiports each. A fixed number
+//! of lanes process the chunks, so the resulting weights do not depend on the number of threads.
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -23,13 +23,12 @@ use crate::imitation::dataset::{Dataset, Samples};
 use crate::nn::{self, Architecture, Gradient, Slopes, Weights, Workspace};
 use crate::rows::Rows;
 
-/// Vertiports per forward and backward pass: as many as the second-level cache holds. The aircraft
-/// of a graph of them come on top; they are not counted, so that the steps of a run do not depend
-/// on whether there is such a graph.
+/// Vertiports per forward and backward pass: as many as fit in the second-level cache. The graph of
+/// the aircraft is not counted, so that the steps of a run do not depend on whether there is one.
 const CHUNK_NODES: usize = 1_024;
 /// Chunks per step of Adam.
 const CHUNKS_A_STEP: usize = 8;
-/// Number of gradients that are filled side by side and then added up.
+/// Number of gradients that are filled in parallel and then added up.
 const LANES: usize = 4;
 /// Largest Euclidean norm of the gradient of a step.
 const MAX_NORM: f32 = 0.5;
@@ -48,11 +47,11 @@ pub(crate) struct Optimiser {
 /// Means over decisions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Fit {
-    /// Sum of p A, in units: by how much a choice drawn from p is better than the mean of the list.
+    /// Sum of p A, in units: the advantage of a choice drawn from p over the mean of the list.
     pub(crate) expected: f64,
-    /// By how much the choice with the highest p is better than the best at the prices, in units.
+    /// Advantage of the choice with the highest p over the best at the prices, in units.
     pub(crate) lift: f64,
-    /// By how much the best choice of the list is better than the best at the prices, in units.
+    /// Advantage of the best choice of the list over the best at the prices, in units.
     pub(crate) most: f64,
     /// Share of decisions in which the choice with the highest p has the highest A.
     pub(crate) agreement: f64,
@@ -195,17 +194,16 @@ impl Lane {
     }
 }
 
-/// What the teacher thinks of the choices of a decision.
+/// The teacher's labels of the choices of a decision.
 #[derive(Clone, Copy)]
 struct Advice<'a> {
     priced: &'a [f32],
     values: &'a [f32],
-    /// What a unit of worth at the prices adds to a logit: nothing for a policy that decides
-    /// without prices.
+    /// The factor of worth at the prices in a logit: 0 for a policy that decides without prices.
     priced_weight: f32,
 }
 
-/// What a unit of worth at the prices adds to a logit when this policy decides.
+/// The factor of worth at the prices in a logit when this policy decides.
 fn priced_weight(policy: &Architecture) -> f32 {
     match policy.observation() {
         Observation::Priced => LOGITS_A_UNIT as f32,
@@ -213,7 +211,7 @@ fn priced_weight(policy: &Architecture) -> f32 {
     }
 }
 
-/// Sets the slopes of a decision's loss, times `weight`. Returns how well the decision was taken.
+/// Sets the slopes of a decision's loss, times `weight`. Returns the fit of the decision.
 fn decision_loss(
     logits: &[f32],
     Advice { priced, values, priced_weight }: Advice<'_>,
@@ -263,7 +261,7 @@ fn chunks(dataset: &Dataset) -> Vec<Chunk> {
         .collect()
 }
 
-/// Cuts the chunks until each is small enough for a pass.
+/// Splits the chunks until each is small enough for a pass.
 fn cut(chunks: &[Chunk]) -> Vec<Chunk> {
     let cut = chunks.iter().flat_map(|chunk| {
         let rows = chunk.rows.chunks(chunk_rows(chunk.vertiports));

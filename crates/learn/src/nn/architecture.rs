@@ -1,5 +1,5 @@
 //! The kinds of policies and their sizes, as the header of a weight file states them. A kind is an
-//! observation and a network; the table in [`Architecture::parts`] says which.
+//! observation and a network; the table in [`Architecture::parts`] lists both.
 
 use serde::{Deserialize, Serialize};
 use vertifleet_core::FeatureScales;
@@ -36,18 +36,18 @@ pub struct GcapsSettings {
     pub width: usize,
     /// `h_e`, the number of attention heads; it divides the width.
     pub heads: usize,
-    /// How the vertiports are related to each other.
+    /// The relations between the vertiports.
     #[serde(default, skip_serializing_if = "GraphSettings::is_of_the_paper")]
     pub graph: GraphSettings,
 }
 
 /// How a `gcaps` network relates the vertiports to each other, and the aircraft. The default is the
-/// paper's (Table 3), on the complete graph of the vertiports; the others are what it can be
-/// compared with.
+/// paper's (Table 3), on the complete graph of the vertiports; the others are alternatives for
+/// comparisons.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GraphSettings {
-    /// What makes embeddings of the features of vertiports.
+    /// Computes embeddings from the features of vertiports.
     pub encoder: EncoderKind,
     /// P, the highest moment of the graph capsules.
     pub moments: usize,
@@ -56,25 +56,25 @@ pub struct GraphSettings {
     pub hops: usize,
     /// `L_e`, the number of layers of the encoder.
     pub layers: usize,
-    /// What makes vertiports neighbours.
+    /// Defines which vertiports are neighbours.
     pub adjacency: Adjacency,
-    /// How the Laplacian follows from the adjacency.
+    /// How the Laplacian is computed from the adjacency.
     pub laplacian: Laplacian,
     /// Whether the decoder attends to the vertiports (Eq. 20); without it, it reads their mean.
     pub attention: bool,
 }
 
-/// What makes embeddings of the features of vertiports.
+/// Computes embeddings from the features of vertiports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum EncoderKind {
     /// Graph capsules (Eq. 18 and 19).
     Capsules,
-    /// Self-attention of all vertiports (Vaswani et al., 2017), which knows no graph.
+    /// Self-attention of all vertiports (Vaswani et al., 2017), which uses no graph.
     Transformer,
 }
 
-/// What makes vertiports neighbours: the weight of the edge from one to another.
+/// Defines which vertiports are neighbours: the weight of the edge from one to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Adjacency {
@@ -82,7 +82,7 @@ pub enum Adjacency {
     Complete,
     /// 1 / (1 + flight time in hours), for pairs that can be flown.
     Distance,
-    /// 1 / (1 + the distance between the features), as the code of the paper's authors has it.
+    /// 1 / (1 + the distance between the features), as in the code of the paper's authors.
     Similarity,
     /// 1 for every pair that the deciding aircraft's type can fly now.
     Reachable,
@@ -91,7 +91,7 @@ pub enum Adjacency {
     Profit,
 }
 
-/// How the Laplacian follows from the adjacency A, with the degrees D of A on the diagonal.
+/// How the Laplacian is computed from the adjacency A, with the degrees D of A on the diagonal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Laplacian {
@@ -148,12 +148,12 @@ impl GraphSettings {
         *self == Self::default()
     }
 
-    /// Whether the encoder is the paper's; the decoder does not matter.
+    /// Whether the encoder is the paper's, regardless of the decoder.
     pub(crate) fn uses_paper_encoder(&self) -> bool {
         Self { attention: true, ..*self }.is_of_the_paper()
     }
 
-    /// Checks that the sizes are such as can be meant.
+    /// Checks that the sizes are within reasonable bounds.
     ///
     /// # Errors
     /// Returns the rule that is broken.
@@ -208,7 +208,7 @@ impl Architecture {
         self.parts().0
     }
 
-    /// What the policy observes.
+    /// The policy's observation.
     pub fn observation(&self) -> Observation {
         self.parts().1
     }
@@ -218,7 +218,7 @@ impl Architecture {
         self.parts().2
     }
 
-    /// The shape of what the policy observes of a day with this number of vertiports.
+    /// The shape of the policy's observation of a day with this number of vertiports.
     pub(crate) fn shape(&self, vertiports: usize) -> Shape {
         self.observation().shape(vertiports)
     }
@@ -235,7 +235,7 @@ impl Architecture {
         }
     }
 
-    /// The writer of what the policy observes; `scales` are for the paper's observation.
+    /// The writer of the policy's observation; `scales` are for the paper's observation.
     pub(crate) fn writer(&self, scales: Option<FeatureScales>) -> Writer {
         Writer::new(self.observation(), scales, self.edges())
     }
@@ -247,7 +247,7 @@ impl Architecture {
         )
     }
 
-    /// Whether the policy can learn by PPO, for which it needs a value of the present alone. Every
+    /// Whether the policy can learn by PPO, which needs a value of the present state alone. Every
     /// policy can learn by imitation of roll-outs.
     pub fn learns_by_ppo(&self) -> bool {
         self.observation() == Observation::Paper
@@ -258,7 +258,7 @@ impl Architecture {
         self.observation() != Observation::Paper && matches!(self.layers(), Layers::Graph(_))
     }
 
-    /// Checks that the graph is one that the policy's observation shows.
+    /// Checks that the policy's observation contains the graph.
     ///
     /// # Errors
     /// Returns the rule that is broken.
@@ -282,7 +282,7 @@ pub(crate) enum Layers<'a> {
     Plain(&'a MlpSettings),
 }
 
-/// Larger sizes can only come from a damaged file, and could ask for more memory than there is.
+/// Larger sizes can only come from a damaged file, and could request more memory than there is.
 const MOST: usize = 4096;
 
 pub(crate) fn check_size(name: &str, size: usize) -> Result<(), String> {

@@ -1,7 +1,7 @@
-//! The inputs and outputs of a pass, with the rows of a batch side by side.
+//! The inputs and outputs of a pass: the rows of a batch.
 
-/// A batch of observations, with the rows side by side. F is the number of node features, G that of
-/// aircraft features.
+/// A batch of observations, row by row. F is the number of node features, G that of aircraft
+/// features.
 #[derive(Debug, Clone, Copy)]
 pub struct Inputs<'a> {
     /// B, the number of decisions.
@@ -15,7 +15,7 @@ pub struct Inputs<'a> {
     /// Weights of the edges between vertiports [B x N x N], in the direction of flights; empty if
     /// the network's graph needs none.
     pub edges: &'a [f32],
-    /// Share of the day that is left `[B]`; only the value head sees it.
+    /// Share of the day that is left `[B]`; only the value head reads it.
     pub clock: &'a [f32],
 }
 

@@ -1,8 +1,8 @@
-//! GCAPS (§IV, Eq. 18-21, Table 3): a graph-capsule encoder, an attention decoder, and a value head
-//! next to it.
+//! GCAPS (§IV, Eq. 18-21, Table 3): a graph-capsule encoder, an attention decoder, and a value
+//! head.
 //!
-//! The encoder of the paper on the complete graph has a special form, which takes a third of the
-//! products ([`encoder`]). All other settings of the graph have encoders that do what they say,
+//! The paper's encoder on the complete graph has a separate form, which takes a third of the
+//! products ([`encoder`]). All other settings of the graph have encoders that follow the equations
 //! product by product.
 
 mod capsule_layers;
@@ -71,7 +71,7 @@ pub(crate) struct Gcaps {
     decoder: Decoder,
 }
 
-/// An encoder, which makes what the decoder reads of the features of the vertiports.
+/// An encoder, which computes the decoder's input from the features of the vertiports.
 #[derive(Debug, Clone)]
 enum AnyEncoder {
     OfThePaper(Box<(Encoder, EncoderWeights)>),
@@ -270,7 +270,7 @@ impl AnyEncoder {
         }
     }
 
-    /// What the decoder reads of a batch after a forward pass.
+    /// The decoder's input of a batch after a forward pass.
     fn read<'space>(&self, space: &'space AnySpace, batch: usize) -> &'space [f32] {
         match (self, space) {
             (Self::OfThePaper(paper), AnySpace::OfThePaper(space)) => {
@@ -283,7 +283,7 @@ impl AnyEncoder {
         }
     }
 
-    /// Adds the slopes of the encoder's weights. `slopes` are those of what the decoder reads; they
+    /// Adds the slopes of the encoder's weights. `slopes` are those of the decoder's input; they
     /// are overwritten.
     fn backward(
         &self,
@@ -308,5 +308,5 @@ impl AnyEncoder {
     }
 }
 
-/// A pass was given the working memory of another kind of network.
+/// A pass received the working memory of another kind of network.
 const OTHER_SPACE: &str = "the working memory is of another encoder";

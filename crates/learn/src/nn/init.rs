@@ -1,4 +1,4 @@
-//! First weights, which follow from a seed: uniform, with a variance that keeps signals on one
+//! Initial weights, which follow from a seed: uniform, with a variance that keeps signals on one
 //! scale (He et al. 2015, LeCun et al. 1998). No function is used whose last bit differs between
 //! machines.
 
@@ -27,7 +27,7 @@ pub(crate) const LOGITS: f32 = 0.01;
 /// Gain of the last matrix of the value: the first values are near 0.
 pub(crate) const VALUE: f32 = 0.1;
 
-/// The first weights of a layout.
+/// The initial weights of a layout.
 pub(crate) fn draw(layout: &Layout, seed: u64) -> Vec<f32> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut params = Vec::with_capacity(layout.len());

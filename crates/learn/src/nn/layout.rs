@@ -36,7 +36,7 @@ pub struct Layout {
     end: usize,
 }
 
-/// The place of one tensor, which is all that the layers keep of the layout.
+/// The place of one tensor, the only part of the layout that the layers keep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Slot {
     pub(crate) offset: usize,

@@ -37,8 +37,8 @@ pub struct Weights {
     products: Vec<f32>,
 }
 
-/// The working memory of passes over batches up to a largest size. A backward pass reads what the
-/// forward pass before it left here.
+/// The working memory of passes over batches up to a largest size. A backward pass reads the values
+/// that the forward pass before it stored here.
 #[derive(Debug)]
 pub struct Workspace {
     most: usize,
@@ -67,7 +67,7 @@ impl NeuralNetwork {
     ///
     /// # Errors
     /// Returns an error if a size is 0 or absurdly large, or if sizes do not fit together; the
-    /// message says which.
+    /// message names the size.
     pub fn new(architecture: Architecture, shape: Shape) -> Result<Self, String> {
         check_size("vertiports", shape.vertiports)?;
         check_size("node_features", shape.node_features)?;
@@ -100,7 +100,7 @@ impl NeuralNetwork {
         &self.layout
     }
 
-    /// The first parameters, a function of the seed alone.
+    /// The initial parameters, a function of the seed alone.
     pub fn init(&self, seed: u64) -> Vec<f32> {
         init::draw(&self.layout, seed)
     }
@@ -201,7 +201,7 @@ impl NeuralNetwork {
     }
 
     /// Completes a summed gradient and returns the slopes of the weights, in the order of the
-    /// layout. Call it once per sum: the gradient must be cleared before it is added to again.
+    /// layout. Call it once per sum, and clear the gradient before the next.
     ///
     /// # Panics
     /// Panics if an argument belongs to another network.

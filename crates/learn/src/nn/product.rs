@@ -2,8 +2,8 @@
 //! crate, and therefore the only one with `unsafe` code.
 //!
 //! `gemm-f32` chooses its kernel by the CPU at run time, so one build runs everywhere, and a given
-//! machine always computes the same bits. `gemm` forwards to it, and builds kernels for complex and
-//! double numbers besides. `faer`, which needs no `unsafe`, was 3 to 15 % slower on the largest
+//! machine always computes the same bits. `gemm` forwards to it, and also builds kernels for
+//! complex and double numbers. `faer`, which needs no `unsafe`, was 3 to 15 % slower on the largest
 //! products here.
 
 #![expect(
@@ -99,7 +99,7 @@ impl<'a> MatrixMut<'a> {
     }
 }
 
-/// Writes `left * right` to `to`, as `write` says.
+/// Writes `left * right` to `to`, as `write` specifies.
 ///
 /// # Panics
 /// Panics if the sizes do not agree.

@@ -2,7 +2,7 @@
 //!
 //! A layer is checked with the loss `sum of outputs times fixed numbers`, entry by entry, by
 //! central differences. Single precision leaves about three digits. That is enough: an error in a
-//! derivative is seldom so small, and the comparison with PyTorch's stored values checks the whole
+//! derivative is rarely so small, and the comparison with PyTorch's stored values checks the whole
 //! networks to five digits.
 
 use crate::nn::batch::{Inputs, Slopes};
@@ -307,8 +307,8 @@ pub(crate) fn check_network(architecture: Architecture, seed: u64, size: f32) {
 
 #[test]
 fn gcaps_whole() {
-    // With seed 30 half of the biases move a rectifier across its kink, so that it depends on the
-    // machine whether they are few.
+    // With seed 30, half of the biases move a rectifier across its kink, so the limit on left-out
+    // entries would depend on the machine.
     for seed in [10, 20, 50] {
         check_network(Architecture::Gcaps(GcapsSettings::of_sizes(16, 4)), seed, 1.0);
     }

@@ -4,7 +4,7 @@
 /// Fills `advantages` for consecutive decisions of one environment.
 ///
 /// `values[t]` is the value estimated before decision `t`, and `last_value` the one after the last
-/// decision. `day_ends[t]` says that the day was over after decision `t`, so nothing after it
+/// decision. `day_ends[t]` is true if the day was over after decision `t`, so that nothing after it
 /// counts.
 pub(crate) fn estimate(
     rewards: &[f32],

@@ -1,4 +1,4 @@
-//! The buffer that PPO learns from: the current policy plays many days side by side, and every
+//! The buffer that PPO learns from: the current policy plays many days in parallel, and every
 //! decision is recorded.
 //!
 //! Days are split into groups of fixed size. A group plays in lockstep, with one inference per step
@@ -38,7 +38,7 @@ impl Source {
         Ok(Simulation::new(Arc::new(network.draw(seed))))
     }
 
-    /// What features are divided by, which is the same on all networks of a world.
+    /// The divisors of the features, the same on all networks of a world.
     fn scales(&self) -> FeatureScales {
         self.world.network(Purpose::Training, 0).feature_scales()
     }
@@ -306,7 +306,7 @@ mod tests {
     use crate::nn::{Architecture, GcapsSettings};
     use crate::ppo::{PpoSettings, Reward};
 
-    /// Days of `paper` on which flights and aircraft have fixed costs.
+    /// Days of `paper` with costs of flights and aircraft.
     fn source() -> Source {
         let network = Network::shipped("paper").expect("a shipped network");
         let costs = [("flight_cost_usd", 20), ("aircraft_cost_usd_per_day", 100)];

@@ -50,7 +50,7 @@ struct Progress {
     updates: u64,
     days_finished: u64,
     recent_rewards: Vec<f64>,
-    /// Filled in when a checkpoint is written; during the run the buffer has the days.
+    /// Set when a checkpoint is written; during the run the buffer has the days.
     days: Vec<DayInProgress>,
     best_reward: Option<f64>,
     best_steps: u64,

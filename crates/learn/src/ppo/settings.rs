@@ -12,18 +12,18 @@ use crate::settings::within;
 pub enum Reward {
     /// All of it at the end of the day, as in the paper.
     Terminal,
-    /// The share of each flight when it is decided, and what the day costs anyway at the end; over
-    /// a day this adds up to the same total.
+    /// The share of each flight at its decision, and the fixed costs of the day at the end; over a
+    /// day this adds up to the same total.
     Dense,
 }
 
 impl Reward {
-    /// The reward of a decision, given its outcome and the day after it; `over` says whether it was
-    /// the day's last.
+    /// The reward of a decision, given its outcome and the day after it; `over` is true for the
+    /// last decision of the day.
     pub fn of(self, outcome: &TraceRow, day: &Simulation, over: bool) -> f64 {
         match self {
             Self::Dense => {
-                // What the day costs anyway belongs to no flight; it is charged with the last
+                // The fixed costs of the day belong to no flight; they are charged with the last
                 // decision.
                 let fixed_usd = if over { day.ledger().fixed_cost_usd() } else { 0.0 };
                 share(outcome.profit_usd() - fixed_usd, day.potential_usd())
@@ -56,7 +56,7 @@ pub enum LearningRateSchedule {
 pub struct PpoSettings {
     /// Number of decisions to learn from in total, rounded up to whole roll-outs.
     pub total_steps: u64,
-    /// Number of days that are played side by side.
+    /// Number of days that are played in parallel.
     pub n_envs: usize,
     /// Number of decisions taken on each of those days between two updates. The roll-out buffer
     /// holds `n_envs * n_steps`.
@@ -93,7 +93,7 @@ pub struct PpoSettings {
 }
 
 impl PpoSettings {
-    /// Exactly Table 2. Where the paper is silent, these are stable-baselines3's defaults, except
+    /// Exactly Table 2. Where the paper gives no value, this is stable-baselines3's default, except
     /// for γ = 1, which a reward at the end of the day requires.
     pub fn paper() -> Self {
         Self {

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! where r is the probability of the choice now over its probability when it was made. A minibatch
-//! is cut into chunks of fixed size that a fixed number of lanes work through; lanes are added up
-//! in order, so the resulting weights do not depend on the number of threads.
+//! is split into chunks of fixed size, which a fixed number of lanes process. Lanes are added up in
+//! order, so the resulting weights do not depend on the number of threads.
 
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
@@ -26,10 +26,10 @@ use crate::ppo::buffer::Buffer;
 use crate::ppo::{PpoSettings, advantage};
 use crate::rows::Rows;
 
-/// Decisions per forward and backward pass: as many as the second-level cache holds.
+/// Decisions per forward and backward pass: as many as fit in the second-level cache.
 const CHUNK: usize = 128;
-/// Number of gradients that are filled side by side and then added up. More would cost memory;
-/// fewer would leave threads idle.
+/// Number of gradients that are filled in parallel and then added up. More would cost memory; fewer
+/// would leave threads idle.
 const LANES: usize = 8;
 
 /// Means over the minibatches of the last epoch, when the update is nearly done. (stable-baselines3
@@ -72,7 +72,7 @@ struct Lane {
     losses: Losses,
 }
 
-/// What an update changes, and how.
+/// The target of an update, and its settings.
 pub(crate) struct Update<'a> {
     pub(crate) weights: &'a mut Weights,
     pub(crate) adam: &'a mut Adam,

@@ -1,5 +1,5 @@
-//! What runs have in common before they learn: the sizes of what a policy sees, and, for imitation
-//! and evolution, the days that a round learns from.
+//! The common beginning of runs: the sizes of a policy's observation, and, for imitation and
+//! evolution, the days that a round learns from.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -24,13 +24,13 @@ pub(crate) struct Begin<Progress> {
     pub(crate) header: Header,
     pub(crate) params: Vec<f32>,
     pub(crate) adam: Adam,
-    /// What the run is resumed from.
+    /// The checkpoint from which the run is resumed.
     pub(crate) checkpoint: Option<Checkpoint<Progress>>,
 }
 
 impl<Progress: DeserializeOwned> Begin<Progress> {
-    /// The beginning of a run that learns from days of random networks too, as large a share of all
-    /// as `random_share`.
+    /// The beginning of a run in which `random_share` of the training days come from random
+    /// networks.
     ///
     /// # Errors
     /// [`Error::BadSetting`] if policy, world and share do not go together, or an error if the
@@ -86,9 +86,9 @@ impl<Progress: DeserializeOwned> Begin<Progress> {
     }
 }
 
-/// The training days of a round or a generation, given as its number, counted from 0, and its
-/// number of days. A share of them come from random networks and [`random_city`], by turns and a
-/// different one each, and the others from a world.
+/// The training days of a round or a generation, given its number, counted from 0, and its number
+/// of days. A share of them come from random networks and from [`random_city`], in turns and each
+/// from a different network; the others come from the world.
 pub(crate) fn training_days(
     world: &World,
     run_seed: u32,
@@ -103,7 +103,7 @@ pub(crate) fn training_days(
             let seed = DaySeed::training(run_seed, day)?;
             let number = random_before(day);
             let is_random = number < random_before(day + 1);
-            // Every day has a different seed, so no two runs share a network that is drawn.
+            // Every day has its own seed, so no two runs share a network that is drawn.
             let network = match (is_random, number % 2.0 == 0.0) {
                 (false, _) => world.network(Purpose::Training, seed.get()),
                 (true, true) => World::Random.network(Purpose::Training, seed.get()),

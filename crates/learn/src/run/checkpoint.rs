@@ -1,8 +1,8 @@
 //! Checkpoints: everything that a run needs to continue bit for bit, in one safetensors file.
 //!
 //! Randomness is a function of seed, day and decision, so there is no generator to store. This
-//! module writes what all ways to learn have: the identity of the run, the parameters and Adam's
-//! moments. Each way adds its own [progress](Checkpoint::progress) and tensors.
+//! module writes the common parts of all ways to learn: the identity of the run, the parameters and
+//! Adam's moments. Each way adds its own [progress](Checkpoint::progress) and tensors.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -20,15 +20,15 @@ use crate::tensor_file;
 
 /// The format of checkpoints.
 const FORMAT: &str = "vertifleet-checkpoint/2";
-/// Larger files are not read. No checkpoint of this program comes near this size.
+/// Largest checkpoint, bytes. No checkpoint of this program comes near this size.
 const LIMIT_BYTES: u64 = 16 << 30;
 /// The tensors of the parameters and of Adam's moments.
 const LEARNER: [&str; 3] = ["params", "adam_first", "adam_second"];
 
-/// The tensor of the weights that did best, of the ways to learn that keep them.
+/// The tensor of the best weights, for the ways to learn that keep them.
 pub(crate) const BEST_PARAMS: &str = "best_params";
 
-/// A checkpoint that was read and that belongs to the run that is asked for.
+/// A checkpoint that was read and belongs to the requested run.
 pub(crate) struct Checkpoint<Progress> {
     pub(crate) params: Vec<f32>,
     pub(crate) adam: Adam,
@@ -46,7 +46,7 @@ struct Header<'a, Progress> {
     progress: &'a Progress,
 }
 
-/// Writes a checkpoint, whole or not at all; `others` are the additional tensors of the way to
+/// Writes a checkpoint, completely or not at all; `others` are the additional tensors of the way to
 /// learn.
 pub(crate) fn write<'a>(
     path: &Path,
@@ -150,7 +150,7 @@ fn member<T: DeserializeOwned>(header: &mut Map<String, Value>, name: &str) -> R
     serde_json::from_value(value).map_err(|error| format!("header: {name}: {error}"))
 }
 
-/// Checks that the checkpoint belongs to the run that is asked for.
+/// Checks that the checkpoint belongs to the requested run.
 fn check_same(header: &mut Map<String, Value>, asked: &RunIdentity) -> Result<(), String> {
     let mut run: Map<String, Value> = member(header, "run")?;
     let settings = run.remove("settings").unwrap_or_default();

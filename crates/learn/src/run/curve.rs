@@ -1,5 +1,5 @@
-//! Learning curves, with one row for a step of learning, whichever way it is. They are CSV files
-//! next to the weights of their run; curves of runs with other seeds may stand there too.
+//! Learning curves of all ways to learn, with one row for each step. They are CSV files in the
+//! folder of their run's weights; curves of runs with other seeds may be there too.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::error::Error;
 
-/// Longer files are not read. No learning curve of this program comes near this size, in bytes.
+/// Largest learning curve, bytes. No learning curve of this program comes near this size.
 const LONGEST: u64 = 64 << 20;
 /// The columns that every curve has first: the number of the step, under its own name, and the
 /// number of decisions learned from by then.
@@ -30,19 +30,19 @@ pub enum Cell {
     Count(u64),
     /// Any number.
     Number(f64),
-    /// What was not measured after this step.
+    /// A value that was not measured after this step.
     Unmeasured,
 }
 
 impl Curve {
-    /// The path at which `train` writes the learning curve of these weights: `gcaps-curve.csv`
-    /// next to `gcaps.safetensors`.
-    pub fn next_to(weights: &Path) -> PathBuf {
+    /// The path at which `train` writes the learning curve of these weights: `gcaps-curve.csv` in
+    /// the folder of `gcaps.safetensors`.
+    pub fn beside(weights: &Path) -> PathBuf {
         weights.with_file_name(format!("{}-curve.csv", name(weights)))
     }
 
-    /// The curve next to the weights, if there is one, followed by those of runs with other seeds,
-    /// `gcaps-seed-2-curve.csv` and so on, in the order of the seeds.
+    /// The curve in the folder of the weights, if there is one, followed by those of runs with
+    /// other seeds, `gcaps-seed-2-curve.csv` and so on, in the order of the seeds.
     ///
     /// # Errors
     /// Returns an error if one of the files cannot be read or is not a curve.
@@ -146,7 +146,7 @@ impl Curve {
     }
 
     /// Number of decisions learned from, and mean reward of the last training days; empty for ways
-    /// to learn that do not learn from the rewards of their days.
+    /// to learn that do not use the rewards of training days.
     pub fn training_rewards(&self) -> Vec<(u64, f64)> {
         self.measured("mean_reward")
     }
@@ -157,8 +157,8 @@ impl Curve {
         self.measured("validation_reward")
     }
 
-    /// A row for TensorBoard: number of decisions learned from, and what was measured by then, by
-    /// its tag.
+    /// A row for TensorBoard: number of decisions learned from, and the values measured by then, by
+    /// their tags.
     pub(crate) fn scalars(&self, row: usize) -> (u64, Vec<(String, f64)>) {
         let row = &self.rows[row];
         let measured = self.columns.iter().zip(row).filter_map(|(column, cell)| match cell {

@@ -24,10 +24,10 @@ pub(crate) struct EventFile {
 }
 
 impl EventFile {
-    /// Creates an event file in `folder`, which is created if it does not exist; the file is named
-    /// after the time at which it is begun. It begins with the rows that the run has already,
-    /// `so_far`, and replaces the run's earlier event files: a run that was killed may have written
-    /// rows that its checkpoint does not have, and TensorBoard would show them twice.
+    /// Creates an event file in `folder`, which is created if it does not exist; the file's name
+    /// contains the time of its creation. It begins with the existing rows of the run, `so_far`,
+    /// and replaces the run's earlier event files: a run that was killed may have written rows that
+    /// its checkpoint does not have, and TensorBoard would show them twice.
     ///
     /// # Errors
     /// Returns an error if the file exists already or cannot be written, or if an earlier one
@@ -63,7 +63,7 @@ impl EventFile {
         Ok(())
     }
 
-    /// Appends what was measured by the time the run had learned from `step` decisions.
+    /// Appends the values that were measured when the run had learned from `step` decisions.
     ///
     /// # Errors
     /// Returns an error if the file cannot be written.

@@ -12,11 +12,11 @@ use crate::nn::Architecture;
 use crate::run::event_file::EventFile;
 use crate::run::{Curve, TrainingRequest, TrainingRun};
 
-/// After a row of the curve, a checkpoint is written only if at least this many times as long has
-/// passed since the last one as writing it took.
+/// After a row of the curve, a checkpoint is written only if the time since the last one is at
+/// least this multiple of the time that writing it took.
 const LEARNING_TO_SAVING: u32 = 50;
 
-/// The files of a policy's run. The files of several policies may stand in one folder.
+/// The files of a policy's run. Several policies may share a folder.
 #[derive(Debug, Clone)]
 pub struct RunFolder {
     folder: PathBuf,
@@ -84,8 +84,7 @@ impl RunFolder {
     }
 
     /// Learns until the run is done or `stop` is requested, and writes the files after rows of its
-    /// curve and at the end. A stop loses what was learned after the last row.
-    ///
+    /// curve and at the end. A stop loses everything learned after the last row.
     /// # Errors
     /// Returns an error if the run diverges, if its training days run out, or if the files cannot
     /// be written at the end.
@@ -128,8 +127,7 @@ impl RunFolder {
     }
 }
 
-/// TensorBoard's event file, for as long as it can be written: a failure to write it does not stop
-/// the run.
+/// TensorBoard's event file, while it can be written: a failure to write it does not stop the run.
 struct Events(Option<EventFile>);
 
 impl Events {

@@ -55,7 +55,7 @@ fn threads_and_interruptions_change_nothing() {
     for plan in [
         plan(small_mlp(), &[]),
         plan(small_gcaps_full(), &[]),
-        // Days of several sizes, and a policy that keeps the prices of one day at a time.
+        // Days of several sizes, and a policy that caches the prices of one day at a time.
         plan(small_gcaps_full(), &[("random_share", "0.7"), ("generations", "1"), ("pairs", "1")]),
         plan(gcaps_x, &[("generations", "2"), ("pairs", "1")]),
     ]

@@ -1,4 +1,4 @@
-//! What the networks and their training promise.
+//! Tests of the networks and their training.
 
 mod evolution;
 mod nn_properties;

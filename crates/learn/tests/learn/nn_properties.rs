@@ -15,7 +15,7 @@ fn networks() -> [NeuralNetwork; 2] {
     })
 }
 
-/// Numbers in [-1, 1) that show no obvious pattern.
+/// Numbers in [-1, 1) without an obvious pattern.
 fn spread(len: usize, pace: f32) -> Vec<f32> {
     (0..len).map(|at| (at as f32 * pace).fract() * 2.0 - 1.0).collect()
 }
@@ -52,7 +52,7 @@ impl Decisions {
     }
 }
 
-/// First weights, with those of the logits enlarged so that differences between vertiports show.
+/// Initial weights, with those of the logits enlarged so that differences between vertiports show.
 fn weights(net: &NeuralNetwork) -> Vec<f32> {
     let mut params = net.init(3);
     for tensor in net.layout().tensors() {
@@ -264,8 +264,8 @@ fn an_architecture_is_written_and_read_back() {
     assert_eq!(Architecture::named("greedy"), None);
 }
 
-/// On the complete graph of N vertiports, I - D^-1 A is N / (N - 1) times (D - A) / N, so weights
-/// that make up for that give the same logits, by encoders that share no code.
+/// On the complete graph of N vertiports, I - D^-1 A is N / (N - 1) times (D - A) / N. So weights
+/// that compensate for this factor give the same logits in two encoders that share no code.
 #[test]
 fn the_encoder_of_any_graph_is_that_of_the_paper_on_the_complete_graph() {
     let settings = GcapsSettings::of_sizes(32, 4);

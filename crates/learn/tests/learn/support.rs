@@ -1,4 +1,4 @@
-//! What tests of all ways to learn do with a run.
+//! Helpers for tests of all ways to learn.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ pub(crate) fn advance(run: &mut dyn TrainingRun) {
     run.advance(&Stop::default(), &|_| ()).expect("training days are left");
 }
 
-/// A run that has learned everything that was asked for.
+/// A run that has learned everything that was requested.
 pub(crate) fn finished(mut run: Box<dyn TrainingRun>) -> Box<dyn TrainingRun> {
     while !run.is_done() {
         advance(run.as_mut());
@@ -26,7 +26,7 @@ pub(crate) fn finished(mut run: Box<dyn TrainingRun>) -> Box<dyn TrainingRun> {
     run
 }
 
-/// Everything that a run leaves, to be compared bit for bit.
+/// All files and weights of a run, to be compared bit for bit.
 pub(crate) fn remains(run: &dyn TrainingRun) -> (Vec<u8>, Vec<u8>, Curve) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("checkpoint");

@@ -1,4 +1,4 @@
-//! Properties of a training run by either way to learn: the weights are the same on any number of
+//! Properties of a training run by any way to learn: the weights are the same on any number of
 //! threads and after any interruption.
 
 use std::path::Path;
@@ -26,7 +26,7 @@ fn small_gcaps_x() -> Architecture {
     Architecture::GcapsX(GcapsSettings::of_sizes(8, 2))
 }
 
-/// A policy of the full observation, which shows edges too.
+/// A policy of the full observation, which contains edges too.
 fn small_gcaps_full() -> Architecture {
     full_with(GraphSettings { adjacency: Adjacency::Profit, ..GraphSettings::default() })
 }

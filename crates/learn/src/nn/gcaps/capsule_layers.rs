@@ -7,8 +7,7 @@
 //!
 //! The sum over a is taken from the highest power down, H_0 + L (H_1 + L (H_2 + ...)) with H_a =
 //! F^p W_pa, so that L is applied K times. The capsules of a layer are [f_1, ..., f_P]. Those of
-//! the last layer are what the decoder reads; between layers, `C W + b` makes features of them
-//! again.
+//! the last layer are the decoder's input; between layers, `C W + b` maps them back to features.
 
 use crate::nn::batch::Inputs;
 use crate::nn::gcaps::graph::{Graph, add_product, add_transposed_product};
@@ -31,8 +30,8 @@ pub(crate) struct CapsuleLayers {
 /// One layer.
 #[derive(Debug, Clone)]
 struct CapsuleLayer {
-    /// What makes features of the capsules of the layer before; the first layer takes those of the
-    /// nodes.
+    /// The map from the capsules of the layer before to features; the first layer uses the nodes'
+    /// features.
     input: Option<Linear>,
     /// W_pa, by p and then a.
     weights: Vec<Vec<Slot>>,

@@ -7,7 +7,8 @@ use crate::nn::{Adjacency, Architecture, EncoderKind, GcapsSettings, GraphSettin
 fn check(graph: GraphSettings) {
     for seed in [40, 50] {
         let settings = GcapsSettings { graph, ..GcapsSettings::of_sizes(16, 4) };
-        // Smaller weights than usual bend the loss less, so that differences say more.
+        // Smaller weights than usual bend the loss less, so that finite differences are more
+        // accurate.
         check_network(Architecture::Gcaps(settings), seed, 0.3);
     }
 }

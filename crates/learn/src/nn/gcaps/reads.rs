@@ -1,11 +1,11 @@
 //! How the decoder reads a sample's capsules: by attention over them, by their mean, and by a logit
 //! for each.
 //!
-//! A sample has one query, so the keys and values of all nodes are never computed. The query of a
-//! head is brought to the nodes' side instead (u = W_K q), its scores are C . u, and W_V is applied
-//! to what its attention collects, a C. All reads of a sample are rows with the width of a capsule,
-//! so they are stored together, and in the backward pass the slopes of the capsules are one
-//! product, `factors^T rows`:
+//! A sample has one query, so the keys and values of all nodes are never computed. Instead, the
+//! query of a head is transformed to the nodes' side (u = W_K q), its scores are C . u, and W_V is
+//! applied to the sum that its attention collects, a C. All reads of a sample are rows with the
+//! width of a capsule, so they are stored together, and in the backward pass the slopes of the
+//! capsules are one product, `factors^T rows`:
 //!
 //! | rows | factors |
 //! |---|---|
@@ -45,7 +45,7 @@ pub(crate) struct ReadsSpace {
     pub(crate) collected: Vec<f32>,
     /// [width].
     pub(crate) means: Vec<f32>,
-    /// What is added to all logits of a sample; in the backward pass, its slopes [1].
+    /// The shift of all logits of a sample; in the backward pass, its slopes [1].
     logit_shifts: Vec<f32>,
     /// Slopes of the queries and the pointer [(heads + 1) x width].
     query_slopes: Vec<f32>,

@@ -1,5 +1,5 @@
-//! An encoder that knows no graph: layers of self-attention (Vaswani et al., 2017), in which every
-//! vertiport attends to all others. Graph capsules are compared with it.
+//! An encoder without a graph: layers of self-attention (Vaswani et al., 2017), in which every
+//! vertiport attends to all others. It is the baseline of the graph capsules.
 //!
 //! ```text
 //! A = softmax(Q K^T / sqrt(d)) of each head, with Q = F W_Q, K = F W_K, V = F W_V
@@ -43,11 +43,10 @@ struct AttentionLayer {
 /// The working memory of the layers.
 #[derive(Debug)]
 pub(crate) struct AttentionSpace {
-    /// The features that each layer takes, then those that the last one makes, [N x h] for a
-    /// sample.
+    /// The features that each layer reads, then the output of the last one, [N x h] for a sample.
     features: Vec<Vec<f32>>,
     layers: Vec<LayerSpace>,
-    /// Slopes of a layer's features, and two rows more to work in, [N x h] for a sample.
+    /// Slopes of a layer's features, and two more rows of scratch, [N x h] for a sample.
     slopes: [Vec<f32>; 3],
     /// Slopes of queries, keys and values.
     read_slopes: [Vec<f32>; 3],
@@ -55,7 +54,7 @@ pub(crate) struct AttentionSpace {
     score_slopes: Vec<f32>,
 }
 
-/// What the pass back needs of a layer.
+/// The state of a layer that the backward pass needs.
 #[derive(Debug)]
 struct LayerSpace {
     /// Q, K, V.
@@ -268,7 +267,7 @@ impl SelfAttention {
     }
 }
 
-/// `to = from W`, as `write` says.
+/// `to = from W`, written as `write` specifies.
 fn product(tensors: Tensors<'_>, weight: Slot, from: &[f32], write: Write, to: &mut [f32]) {
     let rows = from.len() / weight.rows;
     let from = Matrix::new(from, rows, weight.rows);
