@@ -1,4 +1,4 @@
-//! Notes the commit that the program is built from, for the header of the weights it trains.
+//! Sets the commit that the program is built from, for the header of the weights it trains.
 
 use std::process::Command;
 
@@ -9,7 +9,7 @@ fn main() {
         output.status.success().then(|| text.trim().to_owned())
     };
     let commit = git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_else(|| "unknown".to_owned());
-    // Sources only: other files next to them do not change the program.
+    // Sources only: other files in these folders do not change the program.
     let changed = git(&["status", "--porcelain", "--", ":/crates", ":/networks", ":/Cargo.lock"]);
     let mark = if changed.is_some_and(|files| !files.is_empty()) { "-dirty" } else { "" };
     let commit = commit + mark;

@@ -29,11 +29,11 @@ use crate::args::PresentedArguments;
 use crate::failure::Failure;
 use crate::output::warn;
 
-/// Most warnings about many days that are printed one by one.
+/// Largest number of warnings about many days that are printed.
 const MOST_WARNINGS: usize = 10;
 
-/// The network with this name or path. The files that it is read from are protected from being
-/// written to.
+/// Finds the network with this name or path, and protects the files that were read from being
+/// overwritten.
 fn find_network(name: &str, outputs: &mut Outputs) -> Result<Network, Failure> {
     let network = Network::find(name)?;
     for file in network.files() {
@@ -42,7 +42,7 @@ fn find_network(name: &str, outputs: &mut Outputs) -> Result<Network, Failure> {
     Ok(network)
 }
 
-/// Finds the world of a name, and protects the files that were read from being written to.
+/// Finds the world with this name, and protects the files that were read from being overwritten.
 fn resolve_network(name: &str, outputs: &mut Outputs) -> Result<World, Failure> {
     let world = World::find(name)?;
     if let World::Network(network) = &world {
@@ -53,7 +53,7 @@ fn resolve_network(name: &str, outputs: &mut Outputs) -> Result<World, Failure> 
     Ok(world)
 }
 
-/// Protects the weight files that are read from being written to.
+/// Protects the weight files that are read from being overwritten.
 fn reads_models<'a>(models: impl IntoIterator<Item = &'a PolicySource>, outputs: &mut Outputs) {
     for model in models {
         if let PolicySource::File(path) = model {
@@ -62,7 +62,8 @@ fn reads_models<'a>(models: impl IntoIterator<Item = &'a PolicySource>, outputs:
     }
 }
 
-/// Protects what a policy is read from: its weights, and the trace that it replays.
+/// Protects the files of a policy, its weights and the trace that it replays, from being
+/// overwritten.
 fn reads_policy(spec: &PolicySpec, model: Option<&PolicySource>, outputs: &mut Outputs) {
     reads_models(model, outputs);
     if let Some(replayed) = spec.replayed() {
@@ -94,8 +95,7 @@ fn warn_unserved_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
     }
 }
 
-/// Prints the warnings about passengers whom no fleet can carry, which a study of fleets should
-/// know of.
+/// Prints the warnings about passengers whom no fleet can carry, for studies of fleets.
 fn warn_of_demand(network: &Network) {
     for warning in network.warnings().iter().filter(|warning| warning.is_about_demand()) {
         warn(warning.code(), &format!("{}: {warning}", network.name()));
@@ -103,7 +103,7 @@ fn warn_of_demand(network: &Network) {
 }
 
 /// Checks, before any day is played, that the report can be written to its folder without replacing
-/// anything that is read.
+/// an input file.
 fn claim_report(arguments: &PresentedArguments, outputs: &mut Outputs) -> Result<(), Failure> {
     if let Some(folder) = &arguments.report {
         outputs.replaces_folder(folder)?;
@@ -121,7 +121,7 @@ fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
     Ok(scenario)
 }
 
-/// The command line, with a program name that works wherever the program is installed.
+/// The command line, starting with the program's name without its path.
 fn command() -> String {
     std::iter::once("vertifleet".to_owned())
         .chain(std::env::args().skip(1))

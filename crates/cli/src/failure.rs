@@ -1,4 +1,4 @@
-//! How the program fails: with a coded message and a hint on stderr, and an exit code.
+//! How the program fails: it prints a coded message and a hint on stderr, and returns an exit code.
 //!
 //! Exit code 2 means that the arguments or the input files are wrong; 1 means that something else
 //! failed, such as a write to a full disk or a training that diverged.
@@ -12,7 +12,7 @@ use vertifleet_core::{Code, Coded, Exit};
 /// Why a command failed.
 #[derive(Debug)]
 pub(crate) struct Failure {
-    /// The code of the error; `None` for a failure that is not expected.
+    /// The code of the error; `None` for an unexpected failure.
     code: Option<Code>,
     exit: Exit,
     message: String,

@@ -1,10 +1,10 @@
 //! Ctrl-C. In a command whose partial results are worth keeping, the first Ctrl-C requests a clean
-//! end and the second ends the program at once; in other commands the first one does. A file that
-//! is being written is never cut off.
+//! end and the second ends the program at once; in other commands the first one does. Files that
+//! are being written are always completed.
 //!
 //! On Unix, SIGTERM and SIGHUP are handled in the same way. A signal that was ignored when the
-//! program started stays ignored: that is how `nohup`, and a shell without job control that starts
-//! a program in the background, tell the program to continue.
+//! program started stays ignored: `nohup`, and a shell without job control that starts a program in
+//! the background, rely on this.
 
 use std::process::exit;
 
@@ -36,7 +36,7 @@ pub(crate) fn end_on_interrupt() -> Result<(), Failure> {
     end_saying("stopped")
 }
 
-/// The same for a study whose finished parts are on the disk at any time.
+/// The same for a study whose finished parts are always on disk.
 pub(crate) fn end_study_on_interrupt() -> Result<(), Failure> {
     end_saying("stopped; what is finished is kept, and the same command goes on from there")
 }
@@ -62,7 +62,7 @@ fn on_interrupt(mut handler: impl FnMut() + Send + 'static) -> Result<(), Failur
 }
 
 /// The signals that are ignored, one bit each, the lowest bit for signal 1, as Linux reports them.
-/// On other systems this is not known, and all signals are handled.
+/// Other systems do not report them, and all signals are handled.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

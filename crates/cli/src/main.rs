@@ -1,4 +1,4 @@
-//! The `vertifleet` program. It contains arguments and glue, and no logic.
+//! The `vertifleet` program: arguments and glue, without logic.
 //!
 //! Numbers go to stdout, messages for people to stderr. Exit code 0: done; 1: failed, or `check`
 //! found a broken rule; 2: wrong usage or bad input.

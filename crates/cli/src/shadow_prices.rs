@@ -1,16 +1,16 @@
-//! The shadow prices of stands and passengers as JSON and as lines of text. A shadow price is by
-//! how much the upper bound may rise for one more stand or passenger.
+//! The shadow prices of stands and passengers as JSON and as lines of text. A shadow price is an
+//! upper limit on the rise of the upper bound for one more stand or passenger.
 //!
 //! With one more stand or passenger, the same prices prove the bound plus its shadow price: no
 //! schedule of that day earns more. If the bound of the changed day is proved again, it comes from
-//! another search, and may be a little above or below that.
+//! another search, and may be slightly above or below that.
 
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 use vertifleet_core::{Scenario, VertiportIx};
 use vertifleet_optimize::Bound;
 
-/// How many shadow prices of passengers the lines of text show at most.
+/// Largest number of shadow prices of passengers in the lines of text.
 pub(crate) const SHOWN_PASSENGERS: usize = 10;
 /// The heading of the lines about stands.
 pub(crate) const ALL_STANDS: &str =
@@ -27,7 +27,7 @@ pub(crate) fn of_stands(scenario: &Scenario, bound: &Bound) -> Map<String, Value
 }
 
 /// The shadow price of one more charger all day, dollars by vertiport, for the vertiports that have
-/// chargers besides their other stands. The bound does not distinguish the two, so this is the
+/// separate chargers. The bound does not distinguish chargers from other stands, so this is the
 /// shadow price of one more stand there.
 pub(crate) fn of_chargers(scenario: &Scenario, bound: &Bound) -> Map<String, Value> {
     let separate = VertiportIx::all(scenario.vertiports.len())
@@ -90,7 +90,7 @@ pub(crate) fn lines(scenario: &Scenario, bound: &Bound) -> Vec<String> {
     lines
 }
 
-/// A line that says how many shadow prices of passengers are left out, if any are.
+/// A line with the number of shadow prices of passengers that are left out, if any are.
 pub(crate) fn more_passengers(count: usize) -> Option<String> {
     let more = count.saturating_sub(SHOWN_PASSENGERS);
     (more > 0).then(|| format!("  and {more} more, which --json lists"))

@@ -1,5 +1,5 @@
-//! Parses the values of arguments one by one. The error of a value that does not fit says what is
-//! expected.
+//! Parses the values of arguments one by one. The error of an invalid value states the expected
+//! form.
 
 use std::fmt::Display;
 use std::str::FromStr;
@@ -29,7 +29,7 @@ pub(crate) fn parse_factor(text: &str) -> Result<Factor, String> {
     Factor::parse(text).map_err(|error| with_hint(&error))
 }
 
-/// What a design is to achieve.
+/// The goal of a design.
 pub(crate) fn parse_goal(text: &str) -> Result<Goal, String> {
     Goal::parse(text).map_err(|error| with_hint(&error))
 }
@@ -39,7 +39,7 @@ fn with_hint(error: &vertifleet_study::Error) -> String {
     format!("{error}{hint}")
 }
 
-/// A value of a type that reads itself and says what it expects.
+/// A value of a type that parses itself and states the expected form.
 pub(crate) fn parse_known<T: FromStr<Err: Display>>(text: &str) -> Result<T, String> {
     text.parse().map_err(|error: T::Err| error.to_string())
 }

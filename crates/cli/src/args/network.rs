@@ -147,9 +147,9 @@ pub(crate) struct ImportArguments {
 }
 
 impl ImportArguments {
-    /// The flags in use that say how trip records become demand, and say nothing of a table of
-    /// demand. Rules of the parser cannot refuse them: it drops the demand for `--trips` where
-    /// `--demand` excludes it.
+    /// The given flags that describe how trip records become demand, and have no meaning for a
+    /// table of demand. Rules of the parser cannot refuse them: it drops the demand for `--trips`
+    /// where `--demand` excludes it.
     pub(crate) fn flags_of_trips(&self) -> Vec<&'static str> {
         let flags = [
             ("--trip-columns", !self.trip_columns.is_empty()),

@@ -1,4 +1,4 @@
-//! Writes the reference of commands from their help, and checks the page of the book against it.
+//! Writes the reference of commands from their help, and compares the page of the book with it.
 
 use std::fmt::Write as _;
 use std::fs;

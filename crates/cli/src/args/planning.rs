@@ -1,5 +1,4 @@
-//! The arguments of what planners ask: sweeps, days explained, and days in the formats of other
-//! programs.
+//! The arguments of sweeps, searches for a design, explanations and exports.
 
 use std::path::PathBuf;
 

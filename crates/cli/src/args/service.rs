@@ -1,4 +1,4 @@
-//! The arguments of the dispatch service and of those who operate days through it.
+//! The arguments of the dispatch service and of `operate`.
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -126,7 +126,7 @@ pub(crate) struct OperateArguments {
     pub(crate) json: bool,
 }
 
-/// What a token is called.
+/// Parses the name of a token.
 fn parse_token_name(text: &str) -> Result<String, String> {
     match text.trim() {
         "" => Err("expected a name, by which people know who did what".to_owned()),
@@ -152,7 +152,7 @@ fn parse_speed(text: &str) -> Result<Speed, String> {
     }
 }
 
-/// What a token permits.
+/// Parses the role of a token.
 fn parse_role(text: &str) -> Result<Role, String> {
     let known = Role::ALL.map(Role::name).join(", ");
     Role::named(text).ok_or_else(|| format!("expected one of {known}"))

@@ -1,4 +1,4 @@
-//! `vertifleet bound`: proves how much known days can earn at most.
+//! `vertifleet bound`: proves upper bounds on the profit of known days.
 
 use std::process::ExitCode;
 use std::time::Instant;
@@ -48,7 +48,7 @@ pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
 struct Day<'a> {
     scenario: &'a Scenario,
     bound: Bound,
-    /// The bound without foresight, dollars, if it was asked for.
+    /// The bound without foresight, dollars, if it was requested.
     without_foresight_usd: Option<f64>,
     seconds: f64,
 }
@@ -109,8 +109,8 @@ fn mean_bound(days: &[Day<'_>]) -> Mean {
     Mean::of(&days.iter().map(|day| day.bound.upper_bound_usd()).collect::<Vec<_>>())
 }
 
-/// The mean bound without foresight, and by how much it is below the mean bound; `None` if it was
-/// not asked for.
+/// The mean bound without foresight, and its distance below the mean bound; `None` if it was not
+/// requested.
 fn mean_without_foresight(days: &[Day<'_>]) -> Option<(Mean, Mean)> {
     let without: Option<Vec<f64>> = days.iter().map(|day| day.without_foresight_usd).collect();
     let without = without.filter(|without| !without.is_empty())?;

@@ -25,7 +25,7 @@ const SEED_ON_OWN_DAYS: u64 = 0;
 pub(crate) fn run(arguments: &CompareArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
     let mut outputs = Outputs::new(arguments.presented.force);
-    // Ctrl-C ends the program itself, so the study is never asked to stop.
+    // Ctrl-C ends the program, so the study needs no stop request.
     let never = Stop::default();
     let comparison = comparison(arguments, &mut outputs, &never)?;
     reads_models(arguments.models.iter().map(|(_, model)| model), &mut outputs);

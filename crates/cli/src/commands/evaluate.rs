@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &EvaluateArguments) -> Result<ExitCode, Failure> {
     if !arguments.verify.is_empty() {
         return verify_all(arguments);
     }
-    // Ctrl-C ends the program itself, so the evaluation is never asked to stop.
+    // Ctrl-C ends the program, so the evaluation needs no stop request.
     let never = Stop::default();
     let suites = suites(&arguments.suite)?;
     let (policies, models) = (&arguments.policies, &arguments.models);
@@ -102,7 +102,7 @@ fn write_results(
     Ok(())
 }
 
-/// Verifies every file; the exit code says whether all claims hold.
+/// Verifies every file; the exit code is 1 if a claim does not hold.
 fn verify_all(arguments: &EvaluateArguments) -> Result<ExitCode, Failure> {
     let (mut verified, mut unreadable) = (Vec::new(), None);
     for path in &arguments.verify {
@@ -114,7 +114,7 @@ fn verify_all(arguments: &EvaluateArguments) -> Result<ExitCode, Failure> {
                 }
                 verified.push(verification);
             }
-            // The other files are verified all the same.
+            // The other files are still verified.
             Err(error) => unreadable = Some(Failure::from(error).report()),
         }
     }

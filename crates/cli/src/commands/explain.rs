@@ -1,4 +1,4 @@
-//! `vertifleet explain`: where a day's money is, and what one thing more would be worth.
+//! `vertifleet explain`: breaks a day's profit down, and prices one more stand, aircraft or seat.
 
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -37,7 +37,7 @@ pub(crate) fn run(arguments: &ExplainArguments) -> Result<ExitCode, Failure> {
     }
     let step = Step::from_minutes(arguments.step)?;
     let bar = OnceLock::new();
-    // Ctrl-C ends the program itself, so the work is never asked to stop.
+    // Ctrl-C ends the program, so the work needs no stop request.
     let explanation =
         explain(&scenario, spec.name(), &policy, step, &Stop::default(), &|changes| {
             let bar: &Bar = bar.get_or_init(|| Bar::new(changes as u64, "changes"));

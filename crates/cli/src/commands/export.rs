@@ -17,7 +17,7 @@ use crate::commands::read_scenario;
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 
-/// The beginning of every picture, of ours and of others.
+/// The first bytes of every SVG and PNG file, of this program or any other.
 pub(crate) const SVG_FILE: OutputKind =
     OutputKind { name: "SVG picture", skipped: 0, opening: "<svg xmlns=" };
 pub(crate) const PNG_FILE: OutputKind =
@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &ExportArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// The calendar of a format that cannot do without.
+/// The calendar of a format that needs one.
 fn dated(calendar: Option<&Calendar>) -> Result<&Calendar, Failure> {
     calendar.ok_or_else(|| {
         let message = "this format has dates, and the day has none".to_owned();

@@ -21,8 +21,8 @@ use crate::interrupt::end_on_interrupt;
 use crate::output::{print, warn};
 use crate::typed::parse_vertiport;
 
-/// A network file may have been edited since it was written, so that one which is there is never
-/// replaced without being asked to: no file begins like this.
+/// No file begins with this text, so an existing network file, which may have been edited, is never
+/// replaced without `--force`.
 const NEW_FILE: OutputKind = OutputKind { name: "new network file", skipped: 0, opening: "\0" };
 
 /// The steps of the progress of an import.
@@ -82,7 +82,7 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
         bar.advance(now.saturating_sub(*before));
         *before = now.max(*before);
     };
-    // Ctrl-C ends the program itself; the file is written whole or not at all.
+    // Ctrl-C ends the program; the file is written completely or not at all.
     let imported = import(&request, &Stop::default(), &progress)?;
     drop(bar);
     if let Some(output) = &arguments.output {
@@ -91,7 +91,7 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     for warning in &imported.warnings {
         warn(warning.code(), warning);
     }
-    // What the import itself says of passengers outside the hours of operation is not said twice.
+    // The import reports passengers outside the hours of operation, so the warning is not repeated.
     let said = |warning: &Warning| matches!(warning, Warning::OutsideOperations { .. });
     for warning in imported.network.warnings().into_iter().filter(|warning| !said(warning)) {
         warn(warning.code(), &warning);
@@ -117,7 +117,7 @@ fn run_import(arguments: &ImportArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Refuses flags that would change nothing without notice.
+/// Refuses flags that would have no effect.
 fn refuse_flags_of_trips_without_trips(arguments: &ImportArguments) -> Result<(), Failure> {
     let flags = arguments.flags_of_trips();
     if !arguments.trips.is_empty() || flags.is_empty() {
@@ -159,7 +159,7 @@ fn trip_columns(named: &[(TripValue, String)]) -> Result<TripColumns<'_>, Failur
     Ok(columns)
 }
 
-/// Prints every finding about some network files. The exit code is that of bad input if any of them
+/// Prints every finding about network files. The exit code is that of bad input if one of them
 /// cannot be used.
 fn check(files: &[PathBuf], as_json: bool) -> Result<ExitCode, Failure> {
     let (mut lines, mut list, mut errors) = (Vec::new(), Vec::new(), 0);
@@ -271,8 +271,8 @@ fn ask_vertiport(text: &str) -> Result<Option<NewVertiport>, String> {
     if text.is_empty() { Ok(None) } else { parse_vertiport(text).map(Some) }
 }
 
-/// Asks a person for what no flag gives, until the answer can be used. Without a terminal the flag
-/// is asked for.
+/// Asks the user for a value that no flag gives, until the answer is valid. Without a terminal it
+/// returns an error that names the flag.
 fn ask<T>(flag: &str, what: &str, read: impl Fn(&str) -> Result<T, String>) -> Result<T, Failure> {
     loop {
         if !stdin().is_terminal() {

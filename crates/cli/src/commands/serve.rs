@@ -1,4 +1,4 @@
-//! `vertifleet serve`: runs the dispatch service, and keeps its tokens.
+//! `vertifleet serve`: runs the dispatch service, and manages its tokens.
 
 mod demo;
 
@@ -71,7 +71,7 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// How the service runs. From now on it logs.
+/// The settings of the service. Logging starts here.
 fn settings(arguments: &ServeArguments, location: Location) -> Settings {
     log_to_stderr();
     Settings {
@@ -84,7 +84,7 @@ fn settings(arguments: &ServeArguments, location: Location) -> Settings {
     }
 }
 
-/// What keeps others from listening in.
+/// The protection of connections against eavesdropping.
 fn protection(arguments: &ServeArguments) -> Protection {
     match (&arguments.certificate, &arguments.key) {
         (Some(certificate), Some(key)) => {
@@ -95,14 +95,14 @@ fn protection(arguments: &ServeArguments) -> Protection {
     }
 }
 
-/// The collector that spans are sent to: the one of the command line, or else that of the variable
-/// by which every program with OpenTelemetry is told.
+/// The collector that spans are sent to: the one of the command line, or else that of
+/// OpenTelemetry's standard variable.
 fn collector(arguments: &ServeArguments) -> Option<String> {
     let told = || std::env::var("OTEL_EXPORTER_OTLP_ENDPOINT").ok().filter(|url| !url.is_empty());
     arguments.otlp.clone().or_else(told)
 }
 
-/// Where the data lies, for people.
+/// The location of the data, for messages.
 fn place(arguments: &ServeArguments) -> String {
     let data = &arguments.data;
     let folder = || std::path::absolute(data).unwrap_or_else(|_| data.clone());
@@ -110,7 +110,7 @@ fn place(arguments: &ServeArguments) -> String {
     in_database.unwrap_or_else(|| folder().display().to_string())
 }
 
-/// Prints what is found about each day. The exit code is 1 if something is damaged.
+/// Prints the findings about each day. The exit code is 1 if something is damaged.
 fn verify(keeper: &Keeper) -> Result<ExitCode, Failure> {
     let mut is_sound = true;
     let mut printed = Ok(());
@@ -126,7 +126,7 @@ fn verify(keeper: &Keeper) -> Result<ExitCode, Failure> {
     Ok(if is_sound { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// Logs as JSON, a line each: errors and warnings, or what `RUST_LOG` says.
+/// Logs as JSON, one line each: errors and warnings, or the levels in `RUST_LOG`.
 fn log_to_stderr() {
     let filter =
         EnvFilter::builder().with_default_directive(LevelFilter::WARN.into()).from_env_lossy();

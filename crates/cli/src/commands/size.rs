@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &SizeArguments) -> Result<ExitCode, Failure> {
     })?;
     warn_of_demand(&network);
     warn_unserved_days(Some(&sizing.first_day()?));
-    // Ctrl-C ends the program itself; what was found out of designs is on the disk.
+    // Ctrl-C ends the program; the results of finished designs are on disk.
     let (stop, folder) = (Stop::default(), &arguments.out);
     let bar = Bar::new(sizing.designs() as u64, "designs");
     let records = sizing.run(folder, command(), arguments.force, &stop, &mut || bar.advance(1))?;

@@ -100,7 +100,7 @@ impl TrainingWatch for Shown {
     }
 }
 
-/// Prints the results of the run as they stand in its files.
+/// Prints the current results of the run, as its files contain them.
 fn print_summary(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failure> {
     let (curve, kept) = (run.curve(), run.model().header().steps);
     let mut lines = vec![format!("{:<18} {}", "steps", curve.steps())];
@@ -126,14 +126,14 @@ fn print_summary(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failur
     Ok(())
 }
 
-/// A column of learning curves that is shown to people.
+/// A column of learning curves that is printed.
 struct ShownColumn {
     name: &'static str,
     label: &'static str,
     text: fn(f64) -> String,
 }
 
-/// The columns that are shown, if a curve has them.
+/// The columns that are printed, if a curve has them.
 const SHOWN: [ShownColumn; 3] = [
     ShownColumn { name: "mean_reward", label: "mean reward", text: reward_text },
     ShownColumn { name: "gain", label: "gain over prices", text: share_text },
@@ -141,7 +141,7 @@ const SHOWN: [ShownColumn; 3] = [
 ];
 
 impl ShownColumn {
-    /// The number that was measured last.
+    /// The latest measured value.
     fn last(&self, curve: &Curve) -> Option<f64> {
         curve.measured(self.name).last().map(|&(_, number)| number)
     }

@@ -94,8 +94,7 @@ fn several_days_are_bounded_with_means() {
     near(&found["mean"]["upper_bound_usd"], of("upper_bound_usd"));
     for (id, mean) in found["mean"]["stand_shadow_price_usd"].as_object().expect("vertiports") {
         near(mean, days.iter().map(|day| number(&day["stand_shadow_price_usd"][id])).collect());
-        // The vertiport has chargers besides its other stands, and the bound does not tell the two
-        // apart.
+        // The vertiport has separate chargers, and the bound does not distinguish them from stands.
         assert_eq!(mean, &found["mean"]["charger_shadow_price_usd"][id]);
     }
     assert_eq!(days[0]["charger_shadow_price_usd"], days[0]["stand_shadow_price_usd"]);
@@ -233,7 +232,7 @@ fn a_report_is_a_folder_with_a_page_figures_and_tables() {
     }
 }
 
-/// The page of the replay that stands in the frame of a page.
+/// The page of the replay inside the frame of a page.
 fn framed(page: &str) -> String {
     let (_, frame) = page.split_once(r#"<iframe class="replay""#).expect("a frame");
     let (_, within) = frame.split_once("srcdoc=\"").expect("its page");
@@ -242,7 +241,7 @@ fn framed(page: &str) -> String {
     within.replace("&amp;", "&")
 }
 
-/// The days that a page carries, which is a replay or has one in a frame.
+/// The days in a page that is a replay or contains one in a frame.
 fn replayed(page: &Path) -> Vec<Value> {
     let page = fs::read_to_string(page).expect("a page");
     let page = if page.contains("<iframe") { framed(&page) } else { page };
@@ -284,8 +283,7 @@ fn a_page_replays_the_day_that_was_simulated() {
     let exported = fs::read_to_string(at.join("occupancy.svg")).expect("a picture");
     assert!(page.contains(&exported), "the page shows what export writes");
 
-    // The trace of the page is that of the file, rounded to the cent, and still a schedule that the
-    // checker takes.
+    // The trace in the page is that of the file, rounded to the cent, and still passes the checker.
     let (text, exact) =
         (day["plays"][0]["trace"].as_str().expect("text"), fs::read_to_string(at.join("day.csv")));
     let choices = |text: &str| -> Vec<String> {

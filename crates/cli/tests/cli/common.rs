@@ -1,11 +1,11 @@
-//! What tests of misuse share: a folder with files of every kind, small enough that commands are
-//! soon done.
+//! Helpers for tests of misuse: a folder with files of every kind, small enough that commands
+//! finish quickly.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// The folder, removed in the end.
+/// The folder, which is removed at the end.
 pub(crate) fn folder() -> tempfile::TempDir {
     tempfile::tempdir().expect("a folder")
 }
@@ -18,7 +18,7 @@ pub(crate) fn vertifleet(folder: &Path, arguments: &str) -> Command {
     command
 }
 
-/// Runs what must succeed.
+/// Runs a command that must succeed.
 pub(crate) fn run(folder: &Path, arguments: &str) -> Output {
     let output = vertifleet(folder, arguments).output().expect("the program runs");
     let said = String::from_utf8_lossy(&output.stderr);

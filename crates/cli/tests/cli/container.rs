@@ -1,9 +1,9 @@
-//! The image of the service is built from parts of this tree. They suffice.
+//! Checks that the container image copies every file of this tree that the build needs.
 
 use std::fs;
 use std::path::Path;
 
-/// The source files of a folder and of those within it, but for files of tests.
+/// The source files of a folder and its subfolders, except files of tests.
 fn files(folder: &Path, found: &mut Vec<String>) {
     for entry in fs::read_dir(folder).expect("a folder") {
         let path = entry.expect("an entry").path();
@@ -30,8 +30,8 @@ fn the_container_is_built_from_all_that_the_program_has_within_it() {
     for package in fs::read_dir(root.join("crates")).expect("the crates") {
         files(&package.expect("an entry").path().join("src"), &mut sources);
     }
-    // What is compiled in is named by its way from the source file, which leads out of the crate
-    // and into a folder here.
+    // Files that are compiled in are named relative to the source file, by paths that lead out of
+    // the crate into a folder here.
     let without_tests = sources.iter().filter_map(|source| source.split("#[cfg(test)]").next());
     let paths = without_tests.flat_map(|source| source.split('"').skip(1).step_by(2));
     let paths = paths.filter(|path| path.starts_with("../")).map(|path| path.replace("../", ""));

@@ -1,10 +1,10 @@
-//! What is in a folder, to be compared with what was.
+//! The contents of a folder, to be compared before and after.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// All that is in a folder, and where its links lead; a folder has nothing in it but its name.
+/// All entries of a folder and the targets of its links; of a subfolder only its name.
 pub(crate) fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).expect("a folder") {
@@ -13,7 +13,7 @@ pub(crate) fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
             found.insert(path.clone(), Vec::new());
             found.extend(contents(&path));
         } else {
-            // Of a link that leads nowhere, where it leads.
+            // For a dangling link, its target.
             let bytes = fs::read(&path).or_else(|_| {
                 fs::read_link(&path).map(|to| to.into_os_string().into_encoded_bytes())
             });

@@ -1,5 +1,5 @@
-//! Checks that the documentation is true: the error index, the links, the architecture page and the
-//! commands in the pages must match the code and the folders.
+//! Compares the documentation with the code and the folders: the error index, the links, the
+//! architecture page and the commands in the pages.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

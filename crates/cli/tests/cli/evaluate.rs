@@ -1,5 +1,5 @@
-//! Evaluations from the command line: results are written, verified, and stand in the book as the
-//! program prints them.
+//! Evaluations from the command line: results are written and verified, and the book shows the
+//! program's output.
 
 use std::fs;
 use std::path::Path;

@@ -1,5 +1,4 @@
-//! The commands of the guide "Plan a city in an hour" do what the guide says, on fewer days and
-//! designs than there.
+//! Runs the commands of the guide "Plan a city in an hour", on fewer days and designs than there.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,5 @@
-//! The figures of the guides "Your first hour" and "A day of operations" are those that the program
-//! gives.
+//! Compares the figures of the guides "Your first hour" and "A day of operations" with the
+//! program's output.
 
 use std::fs;
 use std::path::Path;
@@ -40,7 +40,7 @@ fn missing<'a>(block: &'a str, output: &str) -> Vec<&'a str> {
     block.lines().filter(|line| !is_rule(line) && !is_printed(line)).collect()
 }
 
-/// What a command of a page prints, the file of a day where it writes one.
+/// The output of a command of a page, or the file of a day that it writes.
 fn printed(folder: &Path, command: &str) -> String {
     let programs = cargo_bin!("vertifleet").parent().expect("a folder").to_owned();
     let path = std::env::var("PATH").expect("a path");

@@ -68,7 +68,8 @@ fn event_files(out: &Path) -> Vec<PathBuf> {
     entries.map(|entry| entry.expect("an entry").path()).collect()
 }
 
-/// Waits until the run has logged its first update. By then it has long been listening for signals.
+/// Waits until the run has logged its first update. By then it has been listening for signals for a
+/// while.
 fn wait_for_first_update(child: &mut Child, out: &Path) {
     let told = || {
         let files = event_files(out);
@@ -150,8 +151,8 @@ fn a_comparison_ended_by_ctrl_c_leaves_whole_bounds_and_no_report() {
     let asked = "compare --network paper --policies rolling --days 400 --seed 1 --bound --step 60";
     let compare = |report: &str| vertifleet(folder.path(), &format!("{asked} --report {report}"));
     let mut child = compare("new/report").spawn().expect("the program runs");
-    // When some of the bounds exist, the command is still computing the others, and has long been
-    // listening for signals.
+    // When some of the bounds exist, the command is still computing the others, and has been
+    // listening for signals for a while.
     while names(&kept).iter().filter(|name| name.starts_with("bound-")).count() < 5 {
         assert!(child.try_wait().expect("a child").is_none(), "it ended before it began");
         sleep(Duration::from_millis(1));
@@ -164,8 +165,8 @@ fn a_comparison_ended_by_ctrl_c_leaves_whole_bounds_and_no_report() {
     }
 }
 
-/// Runs a command that reads a file called `pipe`, and gives it this text through that pipe. When
-/// the command has read the text, it listens for signals and begins to work.
+/// Runs a command that reads a file called `pipe`, and writes this text into that pipe. When the
+/// command has read the text, it listens for signals and begins to work.
 fn begin(folder: &Path, arguments: &str, text: &[u8]) -> Child {
     let pipe = folder.join("pipe");
     assert!(Command::new("mkfifo").arg(&pipe).status().expect("a command").success());

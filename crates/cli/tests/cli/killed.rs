@@ -1,6 +1,6 @@
 //! Tests with `kill -9` at any moment: every file is complete, with either its old or its new
-//! content. Unfinished files have names that begin with `.vertifleet-`, and nothing takes them for
-//! results.
+//! content. Unfinished files have names that begin with `.vertifleet-`, and no command reads them
+//! as results.
 
 use std::fs;
 use std::path::Path;
@@ -29,8 +29,8 @@ fn finished(folder: &Path) -> Vec<String> {
 }
 
 /// Runs the command to its end once, and then kills it in five further runs, at moments spread over
-/// the time that the first run took. `check` looks at the folder after each run. The moments are
-/// always the same shares of that time, but what the program is doing at each moment depends on the
+/// the duration of the first run. `check` inspects the folder after each run. The moments are
+/// always the same shares of that duration, but the program's state at each moment depends on the
 /// machine.
 fn kill_on_the_way(at: &Path, arguments: &str, mut check: impl FnMut(&Path)) {
     let begun = Instant::now();

@@ -1,4 +1,4 @@
-//! Tests of about a hundred and fifty wrong commands. Each command must say what is wrong, end with
+//! Tests of about a hundred and fifty wrong commands. Each command must state the mistake, end with
 //! exit code 2 (1 if the arguments were right), leave every file unchanged, and create none.
 
 use crate::misuses;

@@ -1,7 +1,7 @@
-//! The misuses: arguments, exit code, and what the answer names. Files are those of `prepared` in
-//! `misuse.rs`.
+//! The misuses: arguments, exit code, and the words that the message must contain. Files are those
+//! of `prepared` in `misuse.rs`.
 
-/// Arguments, exit code, and what the answer names.
+/// Arguments, exit code, and the words that the message must contain.
 pub(crate) type Misuse = (&'static str, i32, &'static str);
 
 /// All of them, by command.

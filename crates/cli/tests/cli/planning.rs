@@ -1,5 +1,5 @@
-//! What a planner does with the program: makes a network from their data, looks at it, asks
-//! what a change is worth, and takes a day along.
+//! A planner's work with the program: make a network from their data, inspect it, price a change,
+//! and export a day.
 
 use std::fs;
 use std::path::Path;
@@ -58,7 +58,7 @@ fn imported() -> tempfile::TempDir {
     folder
 }
 
-/// `new-york` with as few aircraft as the small network has room for.
+/// `new-york` with a fleet that fits into the small network.
 fn small_base() -> String {
     let text = include_str!("../../../../networks/new-york.toml");
     text.replace("count = 16", "count = 4")
@@ -203,7 +203,7 @@ fn a_fleet_without_room_is_refused_with_the_flag_that_makes_it_smaller() {
     assert!(refused(here, &[&of_new_york[..], &wrong].concat()).contains("time_zone must be"));
 }
 
-/// What the program says on a command that has to be refused.
+/// The message of a command that must be refused.
 fn refused(folder: &Path, arguments: &[&str]) -> String {
     let output = vertifleet(folder, arguments);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}");
@@ -352,7 +352,7 @@ fn a_day_is_exported_in_every_format() {
         ("png", "day.png", "PNG"),
     ] {
         let arguments = ["export", "day.json", "trace.csv", "--as", format, "--output", file];
-        // Twice, since what this program wrote may be replaced.
+        // Twice, since files that this program wrote may be replaced.
         for _ in 0..2 {
             stdout(here, &[&arguments[..], &dated].concat());
         }

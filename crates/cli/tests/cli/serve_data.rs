@@ -1,4 +1,4 @@
-//! The data of the service: checked, copied, put back, and refused when it is damaged.
+//! The data of the service: checked, copied, restored, and refused when it is damaged.
 
 use std::path::Path;
 
@@ -116,7 +116,7 @@ fn what_is_no_copy_of_a_service_is_not_put_back() {
         assert!(!data.join("vertifleet.db").exists() && !data.join("restoring").exists());
     }
     serve(&["restore", &copy_text, "--database", "postgres://nowhere"], &data).code(2);
-    // A copy is never written over what is there.
+    // A copy is never written over an existing file.
     serve(&["token", "make", "--name", "a", "--role", "read"], &data).success();
     serve(&["backup", &copy_text], &data).failure();
     assert!(std::fs::read(&copy).expect("it is there").starts_with(b"no database"));
@@ -144,7 +144,7 @@ fn a_changed_beginning_of_a_day_is_found() {
 fn only_the_owner_can_read_copies_and_what_is_put_back() {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = tempfile::tempdir().expect("a folder");
-    // Marks that mean something in addresses are letters of a name like all others.
+    // Characters with a meaning in addresses are ordinary characters of a name.
     let (first, second) = (folder.path().join("a%42?#"), folder.path().join("second"));
     data(&first);
     let copy = folder.path().join("copy.db");

@@ -1,4 +1,4 @@
-//! `serve --demo` shows a day that goes on, and leaves nothing behind.
+//! Tests that `serve --demo` shows a day in progress, and leaves no data.
 
 use std::process::Command;
 use std::time::{Duration, Instant};

@@ -1,8 +1,8 @@
-//! The disk is full, and has room again: no acknowledged event is lost, and the service goes on
+//! The disk fills up, and has room again: no acknowledged event is lost, and the service continues
 //! without a restart.
 //!
-//! The disk is a small one in memory, which the operating system lets us mount in a namespace of
-//! our own. Where it does not, the test says so and ends.
+//! The disk is a small one in memory, which the operating system lets the test mount in a separate
+//! namespace. Where it does not, the test prints that and ends.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -15,12 +15,12 @@ use serde_json::{Value, json};
 /// Writes before the disk is full, while it is, and after it has room again.
 const WRITES: usize = 60;
 
-/// Mounts the disk and runs a command. The disk is there as long as this shell is.
+/// Mounts the disk and runs a command. The disk exists until this shell ends.
 const SCRIPT: &str = r#"mount -t tmpfs -o size=8m tmpfs "$0" || exit 9
 "$@"
 exec sleep 600"#;
 
-/// A shell with a separate small disk, on which the service runs.
+/// A shell with a small separate disk, on which the service runs.
 struct SmallDisk {
     shell: Service,
     folder: PathBuf,
@@ -42,7 +42,7 @@ impl SmallDisk {
         shell.arg(serve.get_program()).args(serve.get_args());
         match Service::start(&mut shell) {
             Ok(shell) => {
-                // The disk as processes outside of the namespace see it.
+                // The disk in the view of processes outside the namespace.
                 let seen = format!("/proc/{}/root{}", shell.child.id(), place.display());
                 Some(Self { shell, folder: seen.into() })
             }

@@ -1,5 +1,5 @@
-//! A client that means harm: thousands of connections that say nothing, thousands of streams,
-//! requests that no one would send. Others are served meanwhile.
+//! A hostile client: thousands of silent connections, thousands of streams, and malformed requests.
+//! The service must still answer others.
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::TcpStream;
@@ -9,11 +9,11 @@ use std::time::Duration;
 use crate::service::Service;
 use serde_json::{Value, json};
 
-/// Connections that say nothing; fewer where the operating system permits fewer files.
+/// Silent connections; fewer where the operating system permits fewer files.
 const SILENT: u64 = 10_000;
 /// Readers of a stream, each of which must get every event.
 const READERS: usize = 1_000;
-/// Events that they get.
+/// Events that they receive.
 const EVENTS: usize = 20;
 
 fn start(data: &Path) -> Service {

@@ -1,7 +1,7 @@
-//! The service is killed again and again while clients write. Every event that it acknowledged is
-//! there afterwards, once and in its order: with the data in a folder, with the data in
-//! `PostgreSQL` that two instances share, and in a folder where writing fails at random moments
-//! too. Half of the events are equal in every respect, and all clients send them.
+//! The service is killed again and again while clients write. Afterwards, every acknowledged event
+//! must exist once and in order: with the data in a folder, with the data in `PostgreSQL` that two
+//! instances share, and in a folder where writing fails at random moments too. Half of the events
+//! are equal in every respect, and all clients send them.
 //!
 //! `VERTIFLEET_KILLS` sets the number of kills of each test, for long runs (`make soak`).
 
@@ -17,10 +17,10 @@ use vertifleet_testkit::{Postgres, draw};
 
 /// Clients that write at the same time, each its own events.
 const CLIENTS: usize = 4;
-/// Days that they write to by turns.
+/// Days that they write to in turn.
 const DAYS: usize = 2;
-/// After this many kills all events are read, and new days begin: reading long days again after
-/// each kill would take most of the time.
+/// Number of kills after which all events are checked, and new days begin: reading long days again
+/// after each kill would take most of the time.
 const KILLS_OF_A_ROUND: u32 = 50;
 
 fn kills() -> u32 {
@@ -33,17 +33,17 @@ fn milliseconds(number: usize) -> Duration {
 
 /// A service that is killed again and again.
 struct Trial<'a> {
-    /// What people call it.
+    /// The name of the trial in messages.
     name: &'static str,
-    /// Where its data lies, as the program is told it.
+    /// The location of its data, as an argument of the program.
     data: [&'a str; 2],
     /// Instances that run at the same time. One of them is killed at a time, in turn.
     instances: usize,
-    /// What becomes of the service in the time between two kills.
+    /// The state of the service between two kills.
     meanwhile: fn(&Service, kill: u32, Duration),
 }
 
-/// What clients have met.
+/// The answers that clients received.
 #[derive(Debug, Default)]
 struct Outcome {
     acknowledged: usize,
@@ -51,15 +51,15 @@ struct Outcome {
     refused: AtomicU32,
 }
 
-/// A request with a key, sent again until it is acknowledged, as a client should. `None` if it was
-/// told to stop before.
+/// A client that sends a request with a key again until it is acknowledged, as a client should. It
+/// returns `None` if it was stopped before.
 struct Client<'a> {
     agent: ureq::Agent,
     stop: &'a AtomicBool,
     refused: &'a AtomicU32,
 }
 
-/// The mark of events that all clients send without a difference.
+/// The mark of the identical events that all clients send.
 const EQUAL: &str = "equal";
 
 fn booked() -> Value {
@@ -70,8 +70,8 @@ fn booked() -> Value {
 type Acknowledged = (usize, u64, String);
 
 impl Client<'_> {
-    /// Sends a request to the first of these instances, and again to the next ones for as long as
-    /// it is not acknowledged.
+    /// Sends a request to the first of these instances, and again to the next ones until it is
+    /// acknowledged.
     fn post(&self, instances: &[&str], path: &str, key: &str, body: &Value) -> Option<Value> {
         for address in instances.iter().cycle() {
             if self.stop.load(Ordering::Relaxed) {
@@ -98,8 +98,8 @@ impl Client<'_> {
         None
     }
 
-    /// Writes events until it is stopped: in turn one with a separate mark, and one that all
-    /// clients send.
+    /// Writes events until it is stopped: in turn one with a unique mark, and one that all clients
+    /// send.
     fn write(&self, client: usize, instances: &[&str], days: &[String]) -> Vec<Acknowledged> {
         let mut acknowledged = Vec::new();
         for number in 0.. {
@@ -174,7 +174,7 @@ impl Trial<'_> {
         Ok(())
     }
 
-    /// Kills instances while clients write to separate days.
+    /// Kills instances while each client writes to its own days.
     fn round(&self, services: &mut [Service], kills: std::ops::Range<u32>, outcome: &mut Outcome) {
         let addresses: Vec<String> =
             services.iter().map(|service| service.address.clone()).collect();
@@ -200,7 +200,7 @@ impl Trial<'_> {
             };
             let clients: Vec<_> = (0..CLIENTS).map(write).collect();
             let killed = self.kill(services, kills);
-            // Before anything can panic, or the clients would go on for ever.
+            // This must come before anything can panic, or the clients would never end.
             stop.store(true, Ordering::Relaxed);
             killed.expect("it lives until it is killed, and starts again");
             clients.into_iter().map(|client| client.join().expect("a client")).collect()
@@ -213,7 +213,7 @@ impl Trial<'_> {
         outcome.acknowledged += acknowledged.iter().map(Vec::len).sum::<usize>();
     }
 
-    /// Kills instances as often as this test is to, and checks that nothing was lost.
+    /// Kills instances as often as this test requires, and checks that nothing was lost.
     fn run(&self) -> Outcome {
         let mut outcome = Outcome::default();
         let start = |_| self.start("127.0.0.1:0").expect("it starts");
@@ -262,7 +262,7 @@ fn check(stored: &[BTreeMap<u64, String>], acknowledged: &[Vec<Acknowledged>]) {
             );
         }
     }
-    // Besides what was acknowledged there is at most the last request of each client.
+    // Besides the acknowledged events there is at most the last request of each client.
     let count: usize = acknowledged.iter().map(Vec::len).sum();
     let extra = stored.iter().map(BTreeMap::len).sum::<usize>() - count;
     assert!(extra <= CLIENTS, "{extra} events were stored and never acknowledged");
@@ -290,8 +290,8 @@ fn no_acknowledged_event_is_lost_when_instances_that_share_a_database_are_killed
     Trial { name: "PostgreSQL", data: ["--database", &url], instances: 2, meanwhile }.run();
 }
 
-/// Lets writing fail now and then: a file may not grow beyond a length that is drawn each time, so
-/// that a write ends at any byte. The service may be killed before files may grow again.
+/// Makes some writes fail: a file may not grow beyond a length that is drawn each time, so that a
+/// write ends at any byte. The service may be killed before files may grow again.
 #[cfg(target_os = "linux")]
 fn let_writes_fail(service: &Service, kill: u32, time: Duration) {
     const LONGEST: usize = 1 << 22;

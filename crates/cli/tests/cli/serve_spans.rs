@@ -7,17 +7,17 @@ use std::time::Duration;
 use crate::service::Service;
 use assert_cmd::Command;
 
-/// The variable by which every program with OpenTelemetry is told of its collector.
+/// OpenTelemetry's standard variable for the address of a collector.
 const VARIABLE: &str = "OTEL_EXPORTER_OTLP_ENDPOINT";
 
-/// A place that waits for a collector's first request.
+/// A listener for a collector's first request.
 fn listener() -> (TcpListener, String) {
     let listener = TcpListener::bind("127.0.0.1:0").expect("a port");
     let url = format!("http://{}", listener.local_addr().expect("an address"));
     (listener, url)
 }
 
-/// The first line of the first request that comes.
+/// The first line of the first request.
 fn first_line(listener: &TcpListener) -> String {
     let (socket, _) = listener.accept().expect("a connection");
     socket.set_read_timeout(Some(Duration::from_mins(1))).expect("a timeout");

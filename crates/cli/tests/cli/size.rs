@@ -1,4 +1,4 @@
-//! The program stays small enough to be fetched in a moment.
+//! Tests that the program stays small enough for a quick download.
 
 /// Without the symbols that a release strips, the program takes some 10 MB less.
 const MOST_BYTES: u64 = 80_000_000;

@@ -1,5 +1,5 @@
-//! `vertifleet sweep` as users run it: killed again and again, it ends with the same bytes as if it
-//! had not been.
+//! `vertifleet sweep` as users run it: killed again and again, it ends with the same bytes as
+//! without kills.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use assert_cmd::cargo::cargo_bin;
 
 const KILLS: usize = 20;
-/// How long a process may take for its next cell.
+/// Time limit for a process's next cell.
 const PATIENCE: Duration = Duration::from_mins(1);
 
 fn sweep(folder: &Path) -> Command {
@@ -24,7 +24,7 @@ fn sweep(folder: &Path) -> Command {
     command
 }
 
-/// The files of a folder by name, without what a killed process may leave.
+/// The files of a folder by name, without those that a killed process may leave.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry"));
     entries
@@ -57,7 +57,7 @@ fn twenty_kills_change_no_byte() {
             assert!(begun.elapsed() < PATIENCE, "no cell is finished");
             std::thread::sleep(Duration::from_millis(1));
         }
-        // Some are killed just after a cell, others at any time of the next one.
+        // Some processes are killed just after a cell, others at any time of the next one.
         std::thread::sleep(Duration::from_millis(kill as u64 % 5));
         child.kill().expect("it is ours");
         child.wait().expect("it has ended");

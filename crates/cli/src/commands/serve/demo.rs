@@ -1,4 +1,4 @@
-//! `vertifleet serve --demo`: days that a simulated operator plays, to be looked at.
+//! `vertifleet serve --demo`: days that a simulated operator plays, to be watched.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -13,10 +13,11 @@ use crate::args::ServeArguments;
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 
-/// Seconds of a day that pass in a second.
+/// Seconds of the day per second.
 const SPEED: f64 = 60.0;
 
-/// Runs a service whose data goes when it ends, and an operator whose days never end.
+/// Runs a service whose data is deleted at its end, and an operator that plays one day after
+/// another.
 pub(super) fn run(arguments: &ServeArguments) -> Result<(), Failure> {
     let stop = stop_on_interrupt()?;
     let failed =
@@ -39,7 +40,7 @@ pub(super) fn run(arguments: &ServeArguments) -> Result<(), Failure> {
     }
 }
 
-/// Operates one day after the other, until it is to stop.
+/// Operates one day after the other until it is stopped.
 fn operate_days(address: SocketAddr, stop: &Stop) -> Result<(), Failure> {
     let network = Network::shipped("new-york").expect("a shipped network");
     for seed in 1.. {
@@ -50,7 +51,7 @@ fn operate_days(address: SocketAddr, stop: &Stop) -> Result<(), Failure> {
         match operate(&operation, stop, |_, _| ()) {
             Ok(Some(_)) => {}
             Ok(None) => break,
-            // The service may stop while it is asked.
+            // The service may stop during a request.
             Err(_) if stop.is_requested() => break,
             Err(error) => {
                 stop.request();
