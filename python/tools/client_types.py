@@ -22,7 +22,7 @@ DESCRIPTION = PACKAGE.parent / "docs/src/reference/openapi.json"
 TYPES = PACKAGE / "vertifleet/client/types.py"
 WIDTH = 110
 
-HEAD = '''"""What the dispatch service is asked and what it answers, as types for checkers and editors.
+HEAD = '''"""The requests and answers of the dispatch service, as types for checkers and editors.
 
 Written by python/tools/client_types.py from the description of the API (docs/src/reference/openapi.json): do
 not edit. At run time all of these are plain dicts, so members that a newer service adds do no harm.

@@ -21,7 +21,8 @@ pub(crate) struct Failure {
 
 impl Failure {
     /// V450 arguments that do not go together. The arguments contradict each other; the message and
-    /// the hint say how. For example, `train --set` names a setting that `gcaps-x` does not have.
+    /// the hint explain how. For example, `train --set` names a setting that `gcaps-x` does not
+    /// have.
     ///
     /// Fix: follow the hint.
     pub(crate) fn usage(message: String, hint: &str) -> Self {

@@ -10,7 +10,7 @@ pub enum Error {
     /// Fix: use `default` or `evolution`; for `gcaps` and `mlp` also `paper` or `imitation`.
     #[error("there is no preset {name:?}: presets of this policy are {known}")]
     UnknownPreset {
-        /// The name that was asked for.
+        /// The requested name.
         name: String,
         /// All names of presets.
         known: &'static str,
@@ -19,10 +19,10 @@ pub enum Error {
     /// `vertifleet.settings` in Python.
     ///
     /// Fix: use a name from the list in the message; [Training](../concepts/training.md#presets)
-    /// says what each means.
+    /// explains each.
     #[error("there is no setting {name:?}: settings are {known}")]
     UnknownSetting {
-        /// The name that was asked for.
+        /// The requested name.
         name: String,
         /// All names of settings.
         known: String,
@@ -40,7 +40,7 @@ pub enum Error {
         rule: String,
     },
     /// V304 unusable weights. A weight file is damaged, the file is not a weight file, or its
-    /// tensors are not those of the policy that its header names. The message says what differs.
+    /// tensors are not those of the policy that its header names. The message names the difference.
     ///
     /// Fix: use a file that `vertifleet train` wrote, or fetch the shipped weights again.
     #[error("{origin}: no usable weights: {rule}")]
@@ -79,24 +79,24 @@ pub enum Error {
         rule: String,
     },
     /// V307 no shipped policy of that name. A policy is neither a rule nor shipped for that
-    /// network: the name is mistyped, the network is your own, or a scenario's name does not say
-    /// its network. The message lists the available policies, and the hint says which name may have
-    /// been meant.
+    /// network: the name is mistyped, the network is your own, or a scenario's name does not
+    /// contain its network. The message lists the available policies, and the hint suggests the
+    /// most similar name.
     ///
     /// Fix: use `random`, `greedy`, `prices` or `rolling`, or give weights with `--model`; those of
     /// `gcaps-x` and `gcaps-full` fit every network.
     #[error("no policy {policy:?} is shipped for network {network:?}: shipped are {known}")]
     NotShipped {
-        /// The policy that was asked for.
+        /// The requested policy.
         policy: String,
-        /// The network that was asked for.
+        /// The requested network.
         network: String,
         /// All shipped policies.
         known: String,
     },
-    /// V308 damaged learning curve. The learning curve next to a weight file (`gcaps-curve.csv`
-    /// next to `gcaps.safetensors`) is not one that `train` wrote. `compare` reads it for its
-    /// figure.
+    /// V308 damaged learning curve. The learning curve in the folder of a weight file
+    /// (`gcaps-curve.csv` with `gcaps.safetensors`) is not one that `train` wrote. `compare` reads
+    /// it for its figure.
     ///
     /// Fix: restore the file, or remove it to have the report without this curve.
     #[error("{origin}: line {line}: no row of a learning curve: {rule}")]
@@ -105,7 +105,7 @@ pub enum Error {
         origin: String,
         /// The line, counted from 1.
         line: u64,
-        /// What is wrong.
+        /// The cause.
         rule: String,
     },
     /// V309 training diverged. A training run diverged: some weight became infinite or not a
@@ -120,8 +120,8 @@ pub enum Error {
         /// The update of PPO, or the round of imitation, counted from 1.
         update: u64,
     },
-    /// V311 earlier run in the folder. A training run was asked to begin in a folder that holds the
-    /// checkpoint of an earlier run of the same policy. That checkpoint would be lost.
+    /// V311 earlier run in the folder. A training run was to begin in a folder with the checkpoint
+    /// of an earlier run of the same policy. That checkpoint would be lost.
     ///
     /// Fix: continue that run with `--resume` (in Python `resume=True`), name another folder, or
     /// remove the checkpoint.

@@ -1,5 +1,5 @@
-//! Who may do what: bearer tokens with roles. As long as no token has been made, every program on
-//! this machine may do everything, and the service listens on this machine alone.
+//! Access control: bearer tokens with roles. Until the first token is made, every program on this
+//! machine may do everything, and the service listens on this machine alone.
 
 mod own_pages;
 
@@ -16,33 +16,33 @@ use crate::error::Error;
 use crate::store::Store;
 use crate::tokens::{Role, StoredToken, matching};
 
-/// A token that is revoked is refused after this time at the latest, if the store answers.
+/// Longest time after which a revoked token is refused, if the store answers.
 const FRESH: Duration = Duration::from_secs(2);
 /// How long known tokens stay valid while the store does not answer.
 const STALE: Duration = Duration::from_mins(1);
 const TWO: NonZeroU32 = NonZeroU32::new(2).unwrap();
-/// What stands before a token, in large or small letters (RFC 9110).
+/// The scheme before a token, in upper or lower case (RFC 9110).
 const SCHEME: &str = "Bearer ";
 
 /// The sender of a request, by the name of the token; empty without tokens.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Actor(pub(crate) String);
 
-/// Tokens as they were read.
+/// Tokens as they were last read.
 #[derive(Debug, Clone)]
 struct Known {
     tokens: Arc<[StoredToken]>,
     read: Instant,
-    /// When the store was last asked for them.
+    /// When they were last read from the store.
     asked: Instant,
 }
 
-/// Knows the tokens.
+/// Checks the tokens of requests.
 #[derive(Debug)]
 pub(crate) struct Access {
     store: Store,
     known: Mutex<Option<Known>>,
-    /// How often each token may ask, by its id; requests without a token share one count.
+    /// The rate of requests of each token, by its id; requests without a token share one.
     rates: RateLimiter<String, HashMapStateStore<String>, DefaultClock>,
     most_per_s: u32,
 }
@@ -55,8 +55,9 @@ impl Access {
         Self { store, known: Mutex::new(None), rates: RateLimiter::hashmap(quota), most_per_s }
     }
 
-    /// The tokens, at most [`FRESH`] old; older ones while the store does not answer, but not much
-    /// older. One request asks the store, and the others do not wait for it if they know any.
+    /// The tokens, at most [`FRESH`] old; older ones while the store does not answer, but only for
+    /// [`STALE`]. One request reads the store, and the others do not wait for it if they have
+    /// tokens.
     async fn tokens(&self) -> Result<Arc<[StoredToken]>, Error> {
         let known = self.known().clone();
         let age = known.as_ref().map(|known| known.read.elapsed());
@@ -90,8 +91,8 @@ impl Access {
         Ok(self.tokens().await?.iter().any(|token| token.revoked_ms == 0))
     }
 
-    /// Lets a request to a host in, or refuses it. A request counts against its token, also if it
-    /// is refused; if the store is unavailable, it is attributed to no token.
+    /// Admits a request to a host, or refuses it. A request counts against its token even if it is
+    /// refused; if the store is unavailable, the request is attributed to no token.
     pub(crate) async fn admit(
         &self,
         host: &str,
@@ -99,7 +100,7 @@ impl Access {
         needed: Role,
     ) -> Result<Actor, Error> {
         let tokens = self.tokens().await?;
-        // Once there has been a token, revoking the last one does not open the service to all.
+        // Revoking the last token does not make the service public again.
         if tokens.is_empty() {
             own_pages::check(host, headers)?;
             return Ok(Actor::default());
@@ -134,7 +135,7 @@ impl Access {
     }
 }
 
-/// The token in force that a request came with.
+/// The valid token of a request.
 fn sent<'a>(tokens: &'a [StoredToken], headers: &HeaderMap) -> Option<&'a StoredToken> {
     let given = headers.get(header::AUTHORIZATION)?.to_str().ok()?;
     let (scheme, token) = given.split_at_checked(SCHEME.len())?;

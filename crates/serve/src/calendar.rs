@@ -1,4 +1,4 @@
-//! The calendar of a day: what its times are on the clocks of the world.
+//! The calendar of a day: its times in clocks of the real world.
 
 use jiff::civil::Date;
 use jiff::tz::TimeZone;
@@ -7,12 +7,12 @@ use vertifleet_core::Time;
 
 use crate::error::Error;
 
-/// The years of days. Time zones are of our time.
+/// The years of days, for which time zones are known.
 const YEARS: std::ops::RangeInclusive<i16> = 1970..=2199;
 
-/// A date at a place. 00:00:00 of the day is twelve hours before noon of the date, which is
-/// midnight but for days on which the clocks change; so every day has its hours in order, as in
-/// timetables (GTFS).
+/// A date at a place. 00:00:00 of the day is twelve hours before noon of the date. That is midnight
+/// except on days on which the clocks change, so every day has its hours in order, as in timetables
+/// (GTFS).
 #[derive(Debug, Clone)]
 pub(crate) struct Calendar {
     zone: TimeZone,

@@ -1,4 +1,4 @@
-//! The clock of the machine, and how long ago something happened.
+//! The clock of the machine, and the time since an event.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -9,12 +9,12 @@ pub(crate) fn now_ms() -> i64 {
     i64::try_from(since.as_millis()).unwrap_or(i64::MAX)
 }
 
-/// When something last happened, by a clock that cannot be set.
+/// When something last happened, by a monotonic clock.
 #[derive(Debug, Default)]
 pub(crate) struct LastTime(Mutex<Option<Instant>>);
 
 impl LastTime {
-    /// It happens now.
+    /// Records that it happens now.
     pub(crate) fn is_now(&self) {
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
     }

@@ -1,5 +1,5 @@
-//! The one writer of events. It takes all events that wait and commits them together, so that many
-//! clients share the cost of one write to the disk, and answers each when its events are durable.
+//! The only writer of events. It commits all waiting events together, so that many clients share
+//! the cost of one write to the disk, and answers each when its events are durable.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -13,14 +13,13 @@ use crate::metrics::Metrics;
 use crate::store::{AppendId, NewEvent, Store, StoredAnswer};
 use crate::taken_event::TakenEvent;
 
-/// At most this many requests are committed together.
+/// Largest number of requests that are committed together.
 const MOST_TOGETHER: usize = 1_024;
 
 /// How long a failure counts as recent.
 const A_MOMENT: Duration = Duration::from_secs(5);
 
-/// What is done with events once it is known whether they are stored. Events of a day come here in
-/// their order.
+/// Called when the store has accepted or refused events. The events of a day arrive here in order.
 pub(crate) type Done = Box<dyn FnOnce(Result<(), Error>, Vec<TakenEvent>) + Send + Sync>;
 
 /// Events of a day that wait to be stored.
@@ -39,7 +38,7 @@ impl Append {
     }
 }
 
-/// Takes events to be stored.
+/// Stores events.
 #[derive(Debug, Clone)]
 pub(crate) struct Committer {
     queue: mpsc::UnboundedSender<Append>,
@@ -56,13 +55,13 @@ impl Committer {
         Self { queue, failed }
     }
 
-    /// Whether the store has refused events a moment ago.
+    /// Whether the store has recently refused events.
     pub(crate) fn has_failed(&self) -> bool {
         self.failed.was_within(A_MOMENT)
     }
 
-    /// Puts events into the queue. Events of a day must come in their order, so the caller holds
-    /// the day's lock.
+    /// Adds events to the queue. Events of a day must arrive in order, so the caller holds the
+    /// day's lock.
     pub(crate) fn push(&self, append: Append) {
         if let Err(refused) = self.queue.send(append) {
             let stopped = Error::Store { cause: "the service is stopping".to_owned() };
@@ -85,8 +84,8 @@ async fn write_all(
 }
 
 /// Stores a batch and answers every request in it. If the batch cannot be stored, each of its
-/// requests is tried alone, so that one that conflicts does not fail the others; but a database
-/// that hangs is waited for only once.
+/// requests is tried alone, so that one that conflicts does not fail the others. A database that
+/// hangs is waited for only once.
 async fn write(store: &Store, metrics: &Metrics, failed: &LastTime, batch: &mut Vec<Append>) {
     let mut together = match &batch[..] {
         [_] => None,
@@ -97,7 +96,7 @@ async fn write(store: &Store, metrics: &Metrics, failed: &LastTime, batch: &mut 
             Some(Ok(())) => Ok(()),
             Some(Err(Error::StoreHangs { s })) => Err(Error::StoreHangs { s: *s }),
             // An earlier event of the day could not be stored. The day is read again before this
-            // one is tried again.
+            // one is retried.
             _ if append.day.has_failed() => Err(Error::Conflict),
             _ => store_alone(store, &append).await,
         };
@@ -112,7 +111,7 @@ async fn write(store: &Store, metrics: &Metrics, failed: &LastTime, batch: &mut 
                 let day = append.day.id();
                 match error {
                     // Another service was quicker, or has archived or deleted the day; the client
-                    // is told.
+                    // gets an error.
                     Error::Conflict | Error::Archived { .. } | Error::NotFound { .. } => {
                         tracing::debug!(day, %error, "events were not stored");
                     }
@@ -127,8 +126,8 @@ async fn write(store: &Store, metrics: &Metrics, failed: &LastTime, batch: &mut 
     }
 }
 
-/// Stores what one request brought. If it is stored already, it was by a commit whose answer was
-/// lost.
+/// Stores the events of one request. If they are stored already, an earlier commit succeeded whose
+/// answer was lost.
 async fn store_alone(store: &Store, append: &Append) -> Result<(), Error> {
     let outcome = store_together(store, std::slice::from_ref(append)).await;
     match (&outcome, append.events.last()) {

@@ -1,4 +1,4 @@
-//! Takes connections, with or without TLS, and lets each speak HTTP.
+//! Accepts connections, with or without TLS, and serves HTTP on each.
 
 mod addresses;
 mod strict_lines;
@@ -27,18 +27,18 @@ use self::strict_lines::StrictLines;
 use crate::error::Error;
 use crate::limits::Limits;
 
-/// The handshake of TLS takes no longer.
+/// Time limit of the TLS handshake.
 const HANDSHAKE: Duration = Duration::from_secs(10);
-/// Connections that wait to be taken. A client whose connection finds no room tries again only
-/// after a second.
+/// Length of the queue of connections to accept. A client whose connection does not fit retries
+/// only after a second.
 const BACKLOG: u32 = 4_096;
-/// The longest head of a request, which is kept in memory before anything is known of who sent it.
+/// Largest head of a request, bytes; it is in memory before its sender is known.
 const LONGEST_HEAD: usize = 64 << 10;
-/// When no connection can be taken, because there are too many files for example, the next try
-/// comes after this time.
+/// Time until the next try when no connection can be accepted, for example because too many files
+/// are open.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// What a connection is taken with.
+/// The settings of a connection.
 #[derive(Clone)]
 struct Way {
     router: Router,
@@ -50,19 +50,19 @@ struct Way {
 /// Listens at an address.
 ///
 /// # Errors
-/// Returns what the operating system says if the address cannot be used.
+/// Returns the operating system's error if the address cannot be used.
 pub(crate) fn listen(address: SocketAddr) -> std::io::Result<TcpListener> {
     let socket = if address.is_ipv4() { TcpSocket::new_v4()? } else { TcpSocket::new_v6()? };
-    // A service that starts again takes its address back at once; elsewhere this would let two
-    // listen at one address.
+    // On Unix, a restarted service gets its address back at once; elsewhere this option would let
+    // two programs listen at one address.
     #[cfg(unix)]
     socket.set_reuseaddr(true)?;
     socket.bind(address)?;
     socket.listen(BACKLOG)
 }
 
-/// Takes connections until the service stops, and returns when the last of them has ended. A
-/// connection of an address that has `limits.connections_per_address` already is closed.
+/// Accepts connections until the service stops, and returns when the last of them has ended. A
+/// connection from an address that already has `limits.connections_per_address` is closed.
 pub(crate) async fn take(
     listener: TcpListener,
     router: Router,
@@ -107,7 +107,7 @@ pub(crate) async fn take(
 
 impl Way {
     async fn open(self, socket: TcpStream) {
-        // An answer is one small write, which must not wait for more.
+        // An answer is one small write, which must not be delayed.
         if let Err(error) = socket.set_nodelay(true) {
             tracing::debug!(%error, "a socket has gone");
         }

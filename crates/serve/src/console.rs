@@ -14,21 +14,21 @@ use vertifleet_console::asset;
 
 use crate::error::Error;
 
-/// What the console is told before it asks for anything.
+/// The console and its settings.
 #[derive(Debug, Clone)]
 pub(crate) struct Console {
     page: Bytes,
-    /// What its pages may load.
+    /// The content security policy of its pages.
     policy: HeaderValue,
 }
 
 impl Console {
-    /// The console, with a base map of the operator's own in the place of the bundled one: a style
-    /// of MapLibre, or a file of `PMTiles`. What a style names must come from the same origin,
-    /// since pages may load from no other.
+    /// The console, with the operator's base map in place of the bundled one: a style of MapLibre,
+    /// or a file of `PMTiles`. The resources of a style must have its origin, since pages may load
+    /// from no other.
     ///
     /// # Errors
-    /// Returns [`Error::BadBasemap`] if the address is none of HTTP.
+    /// Returns [`Error::BadBasemap`] if the address is not an HTTP address.
     pub(crate) fn new(basemap: Option<&str>) -> Result<Self, Error> {
         let page = asset("index.html").expect("a test sees that there is a page").bytes;
         let Some(address) = basemap else {
@@ -88,8 +88,8 @@ pub(crate) fn is_open(path: &str) -> bool {
     path == "/" || path.starts_with("/assets/")
 }
 
-/// What the pages may load, the same as `web/security.ts` has it: their own files, and what the
-/// service answers. `map` is where a base map comes from, if it is another place.
+/// The content security policy of the pages, the same as in `web/security.ts`: their own files and
+/// the service's answers. `map` is the origin of a base map on another host.
 fn policy(map: &str) -> String {
     format!(
         "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:{map}; font-src 'self'; \
@@ -98,7 +98,7 @@ fn policy(map: &str) -> String {
     )
 }
 
-/// The scheme, the host and the port of an address of HTTP, or what is wrong with it.
+/// The scheme, the host and the port of an HTTP address, or what is wrong with it.
 fn origin(address: &str) -> Result<String, &'static str> {
     let rule = "it must be an address such as https://tiles.example.com/style.json";
     let uri: Uri = address.parse().map_err(|_| rule)?;

@@ -1,4 +1,5 @@
-//! A day in memory that requests share: its state, its readers, and how much of it is stored.
+//! A day in memory that requests share: its state, its readers, and the number of its last stored
+//! event.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -14,14 +15,14 @@ use crate::error::Error;
 use crate::store::StoredDay;
 use crate::taken_event::TakenEvent;
 
-/// Events that a slow reader may be behind before it has to read from the store.
+/// Largest number of events that a reader may be behind before it must read from the store.
 const KEPT_FOR_READERS: usize = 1_024;
-/// How long a request waits until the events that it has seen in memory are stored.
+/// Time limit for a request that waits until the events in memory are stored.
 const STORE_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// A day in memory.
 pub(crate) struct DayCell {
-    /// The day as it is stored.
+    /// The day's row in the store.
     pub(crate) stored: StoredDay,
     calendar: Option<Calendar>,
     state: Mutex<DispatchDay>,
@@ -29,25 +30,25 @@ pub(crate) struct DayCell {
     durable: watch::Sender<u64>,
     readers: broadcast::Sender<Arc<Published>>,
     /// Whether an event could not be stored, so that memory is ahead of the store and must be
-    /// thrown away.
+    /// discarded.
     has_failed: AtomicBool,
     pub(crate) deciders: Deciders,
 }
 
-/// An event as it is published to readers.
+/// An event that is published to readers.
 #[derive(Debug)]
 pub(crate) struct Published {
     /// The event.
     pub(crate) event: TakenEvent,
-    /// As a message of the stream, made once for all readers.
+    /// The message of the stream, formatted once for all readers.
     pub(crate) shown: OnceLock<Bytes>,
 }
 
 impl DayCell {
-    /// A day with its state after all events that are stored.
+    /// A day with its state after all stored events.
     ///
     /// # Errors
-    /// Returns [`Error::BadRequest`] if its date or its time zone is none.
+    /// Returns [`Error::BadRequest`] if its date or its time zone is invalid.
     pub(crate) fn new(stored: StoredDay, state: DispatchDay) -> Result<Self, Error> {
         let StoredDay { date, time_zone, .. } = &stored;
         let is_dated = !date.is_empty();
@@ -79,29 +80,29 @@ impl DayCell {
     /// Checks that the event after which a reader continues has happened.
     ///
     /// # Errors
-    /// Returns [`Error::NoSuchEvent`] if it has not: the day may have been put back from a copy.
+    /// Returns [`Error::NoSuchEvent`] if it has not: the day may have been restored from a copy.
     pub(crate) fn check_begun(&self, after: u64) -> Result<(), Error> {
         let last = self.state().seq();
         if after <= last { Ok(()) } else { Err(Error::NoSuchEvent { asked: after, last }) }
     }
 
-    /// Whether memory can no longer be trusted: an event could not be stored, or a panic happened
-    /// over the state.
+    /// Whether the day in memory is invalid: an event could not be stored, or a panic happened
+    /// while the state was locked.
     pub(crate) fn is_spoilt(&self) -> bool {
         self.has_failed() || self.state.is_poisoned()
     }
 
-    /// Whether an event could not be stored, so that later ones must not be either.
+    /// Whether an event could not be stored; later ones must then be refused.
     pub(crate) fn has_failed(&self) -> bool {
         self.has_failed.load(Ordering::Acquire)
     }
 
-    /// The events as they are stored from now on.
+    /// Subscribes to the events that are stored from now on.
     pub(crate) fn subscribe(&self) -> broadcast::Receiver<Arc<Published>> {
         self.readers.subscribe()
     }
 
-    /// Makes events public that are stored.
+    /// Publishes stored events.
     pub(crate) fn publish(&self, events: Vec<TakenEvent>) {
         if let Some(last) = events.last() {
             let seq = last.seq;
@@ -117,19 +118,19 @@ impl DayCell {
         }
     }
 
-    /// Has the day read again by all who use it: an event could not be stored, or the day has
-    /// changed in the store.
+    /// Makes all users read the day again: an event could not be stored, or the day has changed in
+    /// the store.
     pub(crate) fn fail(&self) {
         self.has_failed.store(true, Ordering::Release);
-        // Those who wait for an event need not wait any longer.
+        // Wake those who wait for an event.
         self.durable.send_modify(|_| ());
     }
 
-    /// Waits until an event is stored, so that nothing is shown that a crash could take back.
+    /// Waits until an event is stored, so that a crash cannot undo a state that was shown.
     ///
     /// # Errors
-    /// Returns [`Error::Conflict`] if the day has to be read again, and [`Error::Store`] if the
-    /// event cannot be stored.
+    /// Returns [`Error::Conflict`] if the day must be read again, and [`Error::Store`] if the event
+    /// cannot be stored.
     pub(crate) async fn stored_up_to(&self, seq: u64) -> Result<(), Error> {
         let mut durable = self.durable.subscribe();
         let is_stored = durable.wait_for(|&stored| stored >= seq || self.has_failed());

@@ -25,13 +25,13 @@ use crate::store::{AppendId, Store, StoredAnswer, StoredDay};
 use crate::taken_event::TakenEvent;
 use crate::turns::Turns;
 
-/// With more days than this in memory, those that are not in use leave it. A day of `paper` takes
+/// Largest number of days in memory; beyond it, unused ones are dropped. A day of `paper` takes
 /// half a megabyte.
 const MOST_IN_MEMORY: usize = 1_000;
-/// How often a write is tried when other services write to the same day.
+/// Largest number of tries of a write while other services write to the same day.
 const TRIES: u32 = 5;
 
-/// Who writes, and what must hold for it.
+/// The sender of a write, and its conditions.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Writer {
     /// The name of the token, or empty.
@@ -40,12 +40,12 @@ pub(crate) struct Writer {
     pub(crate) if_match: Option<u64>,
     /// The request with its key, if it has one.
     pub(crate) idempotency: Option<Idempotency>,
-    /// Holds the key until the events are stored, even if the client goes away before.
+    /// Reserves the key until the events are stored, even if the client disconnects before.
     pub(crate) busy: Option<Arc<Busy>>,
 }
 
 impl Writer {
-    /// Checks that the day is where the writer expects it to be.
+    /// Checks that the day is at the event that the writer expects.
     ///
     /// # Errors
     /// Returns [`Error::Moved`] if it is not.
@@ -62,7 +62,7 @@ pub(crate) struct Days {
     /// The store.
     pub(crate) store: Store,
     most_events: u64,
-    /// What is measured.
+    /// The metrics.
     pub(crate) metrics: Arc<Metrics>,
     committer: Committer,
     /// Turns for reading days from the store.
@@ -70,22 +70,21 @@ pub(crate) struct Days {
     cells: Mutex<Cells>,
 }
 
-/// Days by their ids. One that is about to be read is empty.
+/// Days by their ids; empty while a day is being read.
 type Cells = HashMap<String, Arc<OnceCell<Arc<DayCell>>>>;
 
 impl Days {
-    /// The days of a store, each with at most `most_events` events. Each is read when it is first
-    /// asked for.
+    /// The days of a store, each with at most `most_events` events. A day is read at its first use.
     pub(crate) fn new(store: Store, most_events: u64, turns: Turns) -> Self {
         let metrics = Arc::new(Metrics::default());
         let committer = Committer::start(store.clone(), Arc::clone(&metrics));
         Self { store, most_events, metrics, committer, turns, cells: Mutex::default() }
     }
 
-    /// Checks that the store takes what it is given.
+    /// Checks that the store accepts writes.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] if it does not, or has not a moment ago.
+    /// Returns [`Error::Store`] if it does not, or recently did not.
     pub(crate) async fn check(&self) -> Result<(), Error> {
         if self.committer.has_failed() {
             let cause = "it refused events a moment ago; the log says why".to_owned();
@@ -97,7 +96,7 @@ impl Days {
     fn cell(&self, id: &str) -> Arc<OnceCell<Arc<DayCell>>> {
         let mut cells = self.cells();
         if cells.len() >= MOST_IN_MEMORY && !cells.contains_key(id) {
-            // Days that are not in use are read again when they are asked for.
+            // Unused days are read again at their next use.
             cells.retain(|_, cell| {
                 Arc::strong_count(cell) > 1
                     || cell.get().is_some_and(|day| Arc::strong_count(day) > 1)
@@ -147,11 +146,11 @@ impl Days {
         day.cloned()
     }
 
-    /// Checks that the event after which a reader continues has happened, in this very log if the
-    /// mark says so.
+    /// Checks that the event after which a reader continues has happened, and, if the mark has a
+    /// checksum, in this log.
     ///
     /// # Errors
-    /// Returns [`Error::NoSuchEvent`] or [`Error::OtherLog`] if it has not: the day was put back
+    /// Returns [`Error::NoSuchEvent`] or [`Error::OtherLog`] if it has not: the day was restored
     /// from a copy.
     pub(crate) async fn check_mark(&self, day: &DayCell, mark: EventMark) -> Result<(), Error> {
         let EventMark { seq, chain: Some(chain) } = mark else { return day.check_begun(mark.seq) };
@@ -205,8 +204,8 @@ impl Days {
         let mut day = Arc::clone(day);
         for _ in 0..TRIES {
             match self.append_once(&day, writer.clone(), events.clone(), &answer).await {
-                // Another service was quicker. The day is read again, and the events are taken in
-                // after those of the other, unless the writer expects the day to be where it was.
+                // Another service was quicker. The day is read again, and the events are applied
+                // after those of the other service, unless the writer requires the earlier state.
                 Err(Error::Conflict) => {
                     self.check_key(&writer).await?;
                     day = self.get(day.id()).await?;
@@ -220,8 +219,8 @@ impl Days {
     /// Checks that no other service has carried the request out.
     ///
     /// # Errors
-    /// Returns [`Error::KeyInUse`] if one has. Sent again, the request gets the answer that it got
-    /// there.
+    /// Returns [`Error::KeyInUse`] if one has. If the client repeats the request, it gets the
+    /// stored answer.
     async fn check_key(&self, writer: &Writer) -> Result<(), Error> {
         let Some(Idempotency { key, .. }) = &writer.idempotency else { return Ok(()) };
         match self.store.answer(key).await? {
@@ -230,8 +229,8 @@ impl Days {
         }
     }
 
-    /// Applies events to a day, appends them to its log, and publishes them: the whole way of an
-    /// event.
+    /// Applies events to a day, appends them to its log, and publishes them: the complete path of
+    /// an event.
     async fn append_once<T: Serialize>(
         &self,
         day: &Arc<DayCell>,
@@ -245,7 +244,7 @@ impl Days {
         let id = AppendId::draw()?;
         let (done, outcome) = oneshot::channel();
         let answer = {
-            // Held until they are in the queue, so that a day's events are stored in their order.
+            // Held until they are in the queue, so that a day's events are stored in order.
             let mut state = day.state();
             writer.check(state.seq())?;
             if state.seq() + events.len() as u64 > self.most_events {
@@ -256,8 +255,8 @@ impl Days {
             let answer = answer(&events);
             let Writer { idempotency, busy, .. } = writer;
             let kept = idempotency.map(|asked| asked.answered_with(&answer));
-            // Published once they are stored, also if the client has gone by then. Until they are,
-            // no reader hears of them, because a crash could take them back.
+            // Published once they are stored, even if the client has disconnected. Readers do not
+            // receive them before, because a crash could undo them.
             let cell = Arc::clone(day);
             let publish = move |outcome: Result<(), Error>, events| {
                 match outcome {
@@ -278,12 +277,12 @@ impl Days {
     }
 }
 
-/// The number of the last of some events, of which there is one.
+/// The number of the last of some events; there is at least one.
 pub(crate) fn last_seq(events: &[TakenEvent]) -> u64 {
     events.last().map_or(0, |event| event.seq)
 }
 
-/// Takes events in, all or none.
+/// Applies events, all or none.
 fn take_all(
     state: &mut DispatchDay,
     events: Vec<Event>,

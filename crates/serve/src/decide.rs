@@ -1,5 +1,5 @@
-//! Decisions with their reasons: what a policy would do with an aircraft, what every alternative is
-//! worth, and why some are not possible.
+//! Decisions with their reasons: the choice of a policy for an aircraft, the value of every
+//! alternative, and the reasons why some are infeasible.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -17,12 +17,12 @@ use crate::moment::Moment;
 use crate::policies::Policies;
 use crate::renewals::{Renewals, Renewing};
 
-/// What a policy proposes for an aircraft.
+/// A policy's proposal for an aircraft.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct Proposal {
     /// The aircraft.
     pub(crate) aircraft: String,
-    /// Where it stands.
+    /// The vertiport where it stands.
     pub(crate) at: String,
     /// The time of the decision.
     pub(crate) time: Moment,
@@ -34,30 +34,30 @@ pub(crate) struct Proposal {
     pub(crate) policy: String,
     /// SHA-256 of its weight file, if it is a learned policy.
     pub(crate) weights_sha256: Option<String>,
-    /// The policy that was asked and was not ready in time, if another decided for it.
+    /// The requested policy, if it was not ready in time and another decided for it.
     pub(crate) too_late: Option<String>,
     /// How long the decision took, microseconds.
     pub(crate) took_us: u64,
-    /// Every vertiport, in the order of the day: what flying there would bring, and why it is not
-    /// possible where it is not.
+    /// Every vertiport, in the order of the day: the result of flying there, or the reason why that
+    /// is not possible.
     pub(crate) alternatives: Vec<Alternative>,
 }
 
-/// What flying to a vertiport would bring.
+/// The result of flying to a vertiport.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct Alternative {
     /// The vertiport; the aircraft's own means hold.
     pub(crate) to: String,
-    /// Why it is not possible; absent if it is.
+    /// The reason why it is not possible; absent if it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) impossible: Option<Impossible>,
-    /// What the policy compares its choices by: dollars for policies that price the rest of the day
-    /// or roll it out, dollars an hour for `greedy`. Absent if the policy did not consider it.
+    /// The value that the policy compares its choices by: dollars for policies that price the rest
+    /// of the day or roll it out, dollars an hour for `greedy`. Absent if the policy did not
+    /// consider this choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) value: Option<f64>,
-    /// Worth at the day's bid prices, dollars: the flight's profit and what being ready there
-    /// afterwards is worth, less the prices of its passengers and its stand. Absent if the policy
-    /// has no prices.
+    /// Worth at the day's bid prices, dollars: the flight's profit and the worth of being ready
+    /// there, less the prices of its passengers and its stand. Absent if the policy has no prices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) worth_usd: Option<f64>,
     /// Profit of the flight itself, dollars; 0 for a hold.
@@ -68,9 +68,9 @@ pub(crate) struct Alternative {
     pub(crate) arrival: Moment,
     /// When it would be ready again.
     pub(crate) ready: Moment,
-    /// Stands there, or chargers where they are counted apart.
+    /// Stands there, or chargers if they are counted separately.
     pub(crate) stands: u16,
-    /// Aircraft that take them, standing there or on their way.
+    /// Aircraft that occupy them, standing there or on their way.
     pub(crate) stands_taken: u16,
     /// The price of a stand there until the aircraft is ready, dollars.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -80,7 +80,7 @@ pub(crate) struct Alternative {
     pub(crate) passenger_price_usd: Option<f64>,
 }
 
-/// Why an alternative is not possible.
+/// The reason why an alternative is not possible.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct Impossible {
     /// The rule.
@@ -103,14 +103,14 @@ pub(crate) enum RuleName {
     NoStandFree,
 }
 
-/// A policy that decides on a day, which answers one after the other.
+/// A policy that decides on a day; its evaluations are serialised.
 type Shared = Arc<tokio::sync::Mutex<Decider>>;
 
-/// The policies that decide on a day, each with its memory of the day.
+/// The policies that decide on a day, each with its state for the day.
 #[derive(Default)]
 pub(crate) struct Deciders(Mutex<HashMap<String, Shared>>);
 
-/// A policy with its memory.
+/// A policy with its state.
 pub(crate) struct Decider {
     policy: Box<dyn Policy>,
     weights_sha256: Option<String>,
@@ -120,10 +120,10 @@ pub(crate) struct Decider {
 }
 
 impl Deciders {
-    /// At most this many policies remember a day.
+    /// Largest number of policies with a state for a day.
     const MOST: usize = 16;
 
-    /// The policy with this name, with its memory of the day.
+    /// The policy with this name, with its state for the day.
     ///
     /// # Errors
     /// Returns an error if there is no such policy, or if it does not fit the day.
@@ -141,7 +141,7 @@ impl Deciders {
         if deciders.len() >= Self::MOST
             && let Some(other) = deciders.keys().next().cloned()
         {
-            // It recomputes its prices when it is asked again.
+            // It recomputes its prices at its next decision.
             deciders.remove(&other);
         }
         let decider = Decider {
@@ -151,7 +151,7 @@ impl Deciders {
             values: vec![f64::NAN; day.vertiports.len()],
             renewing: Renewing::default(),
         };
-        // Another request may have made it at the same time.
+        // Another request may have added it in the meantime.
         let decider =
             deciders.entry(name.to_owned()).or_insert_with(|| Shared::new(decider.into()));
         Ok(Arc::clone(decider))
@@ -187,7 +187,7 @@ impl Decider {
         let live = state.live_mut();
         let decision = live.decision(ix, time.unwrap_or_default())?;
         let refusals = refusals(live.view_at(&decision, &mut self.room), &decision);
-        // The policy thinks about a copy, so that events go on meanwhile.
+        // The policy evaluates a copy, so that events can be applied in the meantime.
         drop(state);
         let day = self.room.as_ref().expect("the view was written into it");
         self.renewing.before(&mut *self.policy, day, &decision, busy);
@@ -215,12 +215,12 @@ impl Decider {
     }
 }
 
-/// A decision with what its alternatives are weighed by.
+/// A decision with the values that its alternatives are compared by.
 struct Weighed<'a> {
     view: View<'a>,
     decision: &'a Decision,
     prices: Option<&'a DayPrices>,
-    /// What the policy compares its choices by.
+    /// The value that the policy compares its choices by.
     values: &'a [f64],
 }
 
@@ -267,13 +267,13 @@ impl Weighed<'_> {
     }
 }
 
-/// An amount to the hundredth, which is all that people read and much shorter than a float.
+/// An amount rounded to cents: the precision that people need, and much shorter than a float.
 fn to_cents(amount: f64) -> f64 {
     // Normalise -0.0 to 0.0.
     (amount * 100.0).round() / 100.0 + 0.0
 }
 
-/// Why each vertiport cannot be chosen, in the order of the day.
+/// The reason why each vertiport cannot be chosen, in the order of the day.
 fn refusals(view: View<'_>, decision: &Decision) -> Vec<Option<Impossible>> {
     let reason = |to| {
         let refusal = view.refusal(decision, to)?;

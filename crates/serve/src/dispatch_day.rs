@@ -12,14 +12,14 @@ use crate::moment::Moment;
 use crate::store::Head;
 use crate::taken_event::TakenEvent;
 
-/// What is known of a day after its events so far.
+/// The state of a day after its events so far.
 #[derive(Debug, Clone)]
 pub(crate) struct DispatchDay {
     live: LiveDay,
     ids: Arc<Ids>,
     /// Number of events.
     seq: u64,
-    /// The sum over them.
+    /// The checksum over them.
     chain: u32,
     notices: Vec<(u64, String)>,
 }
@@ -31,12 +31,12 @@ impl DispatchDay {
         Self { live: LiveDay::new(scenario), ids, seq: 0, chain: 0, notices: Vec::new() }
     }
 
-    /// The day as the simulator knows it.
+    /// The simulator's state of the day.
     pub(crate) fn live(&self) -> &LiveDay {
         &self.live
     }
 
-    /// The day as the simulator knows it, to be looked at.
+    /// The simulator's state of the day, mutable for evaluation.
     pub(crate) fn live_mut(&mut self) -> &mut LiveDay {
         &mut self.live
     }
@@ -51,18 +51,19 @@ impl DispatchDay {
         self.seq
     }
 
-    /// The sum over its events.
+    /// The checksum over its events.
     pub(crate) fn chain(&self) -> u32 {
         self.chain
     }
 
-    /// What people should look at: what came with events, with their numbers, and what holds now.
+    /// Notices for people: those that came with events, with their numbers, and those about the
+    /// current state.
     pub(crate) fn notices(&self) -> impl Iterator<Item = (Option<u64>, String)> + '_ {
         let told = self.notices.iter().map(|(seq, text)| (Some(*seq), text.clone()));
         told.chain(self.live.notices().map(|notice| (None, notice.to_string())))
     }
 
-    /// Checks that the time of an event that a client sends is probably right.
+    /// Checks that the time of a client's event is plausible.
     ///
     /// # Errors
     /// Returns [`Error::UnknownId`] or [`Error::ReportError`].
@@ -71,11 +72,11 @@ impl DispatchDay {
         Ok(self.live.check_times(time, &event.what.report(&self.ids)?)?)
     }
 
-    /// Takes an event in, and returns it as it is to be taken.
+    /// Applies an event, and returns it in the form in which it is stored.
     ///
     /// # Errors
-    /// Returns [`Error::UnknownId`] or [`Error::ReportError`] if the day cannot take it. Nothing
-    /// has changed then.
+    /// Returns [`Error::UnknownId`] or [`Error::ReportError`] if the event is invalid on this day.
+    /// Nothing has changed then.
     pub(crate) fn take(
         &mut self,
         mut event: Event,
@@ -105,10 +106,10 @@ impl DispatchDay {
         self.notices.extend(notices.into_iter().map(|text| (seq, text)));
     }
 
-    /// Checks that all events are there that the row of the day counts.
+    /// Checks that all events exist that the day's row counts.
     ///
     /// # Errors
-    /// Returns [`Error::BadData`] if one is.
+    /// Returns [`Error::BadData`] if one is missing.
     pub(crate) fn check_head(&self, head: Head) -> Result<(), Error> {
         if self.seq < head.seq {
             let (next, last) = (self.seq + 1, head.seq);
@@ -123,10 +124,10 @@ impl DispatchDay {
         Ok(())
     }
 
-    /// Takes an event in that is stored already.
+    /// Applies a stored event.
     ///
     /// # Errors
-    /// Returns [`Error::BadData`] if it is not the next one, is damaged, or cannot be taken.
+    /// Returns [`Error::BadData`] if it is not the next one, is damaged, or is invalid.
     pub(crate) fn replay(&mut self, taken: &TakenEvent) -> Result<(), Error> {
         let bad = |rule: String| Error::BadData { rule: format!("event {}: {rule}", taken.seq) };
         if taken.seq != self.seq + 1 {

@@ -1,4 +1,4 @@
-//! The errors of the service, with stable codes (V6xx) and what they mean in HTTP.
+//! The errors of the service, with stable codes (V6xx) and their HTTP status.
 
 mod codes;
 
@@ -20,42 +20,42 @@ pub enum Error {
     #[error(transparent)]
     Study(#[from] vertifleet_study::Error),
 
-    /// V601 request not understood. The service was sent JSON that is not well-formed, a member
+    /// V601 request not understood. The service received JSON that is not well-formed, a member
     /// that is missing, unknown or of the wrong type, or a value out of bounds. The message names
     /// it.
     ///
-    /// Fix: send what [the description of the API](api.md) says.
+    /// Fix: send a request that matches [the description of the API](api.md).
     #[error("the request is not understood: {rule}")]
     BadRequest {
-        /// What is wrong.
+        /// The cause.
         rule: String,
     },
 
     /// V602 no such thing. There is no day, network, policy, event, token or path of this name.
     ///
-    /// Fix: list what there is: `GET /v1/days`. If it is an event that the client has seen before,
-    /// the day was put back from an older copy: read its state again.
+    /// Fix: list the existing ones, for example with `GET /v1/days`. If it is an event that the
+    /// client has read before, the day was restored from an older copy: read its state again.
     #[error("there is no {what} {id:?}")]
     NotFound {
-        /// What was asked for.
+        /// The kind of thing.
         what: &'static str,
         /// Its id.
         id: String,
     },
 
-    /// There is no such event yet. Cause: a wrong number, or the day was put back from a copy
-    /// that is older than what the client has seen. Fix: read the state of the day again.
+    /// There is no such event yet. Cause: a wrong number, or the day was restored from a copy that
+    /// is older than the client's state. Fix: read the state of the day again.
     #[error("there is no event {asked}: the day is at event {last}")]
     NoSuchEvent {
-        /// The number that was asked for.
+        /// The requested number.
         asked: u64,
         /// The number of the latest event.
         last: u64,
     },
 
-    /// V631 another log. A stream is to go on after an event that is not in the log of the day. The
-    /// day was put back from a copy, and may have gone on since, so that other events have the
-    /// numbers that the client knows.
+    /// V631 another log. A stream is to continue after an event that is not in the log of the day.
+    /// The day was restored from a copy, and may have continued since, so that other events have
+    /// the numbers that the client has read.
     ///
     /// Fix: read the day again from its first event. The console does so automatically.
     #[error("event {mark} is not in the log of the day")]
@@ -76,26 +76,26 @@ pub enum Error {
         id: String,
     },
 
-    /// V604 the day cannot take it. A decision breaks a rule, or an event contradicts what has been
-    /// reported: an aircraft that stands cannot land.
+    /// V604 the event is not possible on this day. A decision breaks a rule, or an event
+    /// contradicts earlier ones: an aircraft that stands cannot land.
     ///
-    /// Fix: the message names the rule. If reality is as the event says, report first what led
-    /// there.
+    /// Fix: the message names the rule. If the event did happen, report first the events that led
+    /// to it.
     #[error("{0}")]
     ReportError(#[from] ReportError),
 
-    /// An event of several, which has the code of what is wrong with it.
+    /// An event of several, with the code of its error.
     #[error("event {number} of {of}: {cause}")]
     InList {
         /// Its number in the list, from 1.
         number: usize,
         /// The number of events in the list.
         of: usize,
-        /// What is wrong with it.
+        /// Its error.
         cause: Box<Error>,
     },
 
-    /// V605 the day has gone on. The request was made for an earlier state (`If-Match`), and
+    /// V605 the day has changed. The request was made for an earlier state (`If-Match`), and
     /// another client has added an event since.
     ///
     /// Fix: read the day again, and decide again.
@@ -108,20 +108,20 @@ pub enum Error {
     },
 
     /// V606 the store failed. The disk is full or broken, permissions are missing, or the database
-    /// does not answer within 5 seconds. Nothing that was acknowledged is lost; what a database
-    /// that hangs was sent may still be stored.
+    /// does not answer within 5 seconds. No acknowledged event is lost; a write that was sent to a
+    /// hanging database may still be stored.
     ///
-    /// Fix: the message has what the store says. Send the request again with the same
-    /// `Idempotency-Key` once it works.
+    /// Fix: the message contains the error of the store. Send the request again with the same
+    /// `Idempotency-Key` once the store works.
     #[error("the store failed: {cause}")]
     Store {
-        /// What the store says.
+        /// The error of the store.
         cause: String,
     },
 
-    /// The database hangs: it holds its connections and does not answer. What it was asked to
-    /// store may be stored later. Fix: send the request again with its `Idempotency-Key` once the
-    /// database answers.
+    /// The database hangs: it holds its connections and does not answer. It may still store the
+    /// write later. Fix: send the request again with its `Idempotency-Key` once the database
+    /// answers.
     #[error(
         "the store failed: the database has not answered for {s} s; what it was sent may still be stored"
     )]
@@ -130,37 +130,38 @@ pub enum Error {
         s: u64,
     },
 
-    /// V607 data cannot be read. A newer program wrote the data, or it is no data of this program
-    /// at all, or bytes in it were changed: what a day begins with has a sum, and each event has
-    /// one over itself and those before.
+    /// V607 data cannot be read. A newer program wrote the data, another program wrote it, or bytes
+    /// in it were changed. The beginning of a day has a checksum, and each event has one over
+    /// itself and those before.
     ///
     /// Fix: use the newer program, name the right folder or file, or restore a copy of the data.
-    /// `vertifleet serve verify` names what is damaged.
+    /// `vertifleet serve verify` names the damaged part.
     #[error("the data of the service cannot be read: {rule}")]
     BadData {
-        /// What is wrong.
+        /// The cause.
         rule: String,
     },
 
-    /// The data is that of another program, or of a newer version. Fix: use the program that
-    /// wrote it, or name the right folder or file.
+    /// Another program or a newer version wrote the data. Fix: use the program that wrote it, or
+    /// name the right folder or file.
     #[error("the data of the service cannot be read: {rule}")]
     ForeignData {
-        /// What is wrong.
+        /// The cause.
         rule: String,
     },
 
-    /// V608 day archived. The day was archived, and takes no events any more.
+    /// V608 day archived. The day was archived, and accepts no more events.
     ///
-    /// Fix: open it again with `POST /v1/days/{day}/unarchive`, which needs the role `admin`, or
-    /// make a new day.
+    /// Fix: reopen it with `POST /v1/days/{day}/unarchive`, which needs the role `admin`, or make a
+    /// new day.
     #[error("day {id:?} is archived")]
     Archived {
         /// The day.
         id: String,
     },
 
-    /// V609 idempotency key used twice. The same `Idempotency-Key` came with another request.
+    /// V609 idempotency key used twice. An earlier request with the same `Idempotency-Key` was
+    /// different.
     ///
     /// Fix: use a new key for each request, and the same one only to send the same request again.
     #[error("the idempotency key {key:?} was used for another request")]
@@ -169,8 +170,7 @@ pub enum Error {
         key: String,
     },
 
-    /// V610 token missing. The service has tokens, and the request came without one that is in
-    /// force.
+    /// V610 token missing. The service has tokens, and the request came without a valid one.
     ///
     /// Fix: make one with `vertifleet serve token make`, and send it as `Authorization: Bearer
     /// vf_...`.
@@ -184,7 +184,7 @@ pub enum Error {
     CannotListen {
         /// The address.
         address: String,
-        /// What the operating system says.
+        /// The error of the operating system.
         cause: std::io::Error,
     },
 
@@ -193,7 +193,7 @@ pub enum Error {
     /// Fix: send less, or delete days that are over.
     #[error("the service takes at most {most} {what}")]
     TooMuch {
-        /// Of what.
+        /// The kind of thing.
         what: &'static str,
         /// The limit.
         most: u64,
@@ -202,17 +202,17 @@ pub enum Error {
     /// V613 the service does not answer. `vertifleet operate` got no answer from the service for
     /// half a minute, or an error.
     ///
-    /// Fix: the message has the service's answer. Check the address, and that `vertifleet serve`
-    /// runs there.
+    /// Fix: the message contains the service's answer. Check the address, and that `vertifleet
+    /// serve` runs there.
     #[error("{url}: {rule}")]
     NoAnswer {
         /// The address.
         url: String,
-        /// What went wrong.
+        /// The cause.
         rule: String,
     },
 
-    /// V614 idempotency key in use. A request with this key is being carried out: it was sent again
+    /// V614 idempotency key in use. A request with this key is in progress: it was sent again
     /// before the first was answered.
     ///
     /// Fix: wait a moment, and send it again.
@@ -222,28 +222,29 @@ pub enum Error {
         key: String,
     },
 
-    /// V615 something went wrong inside. A defect of the program. The log of the service has more.
+    /// V615 internal error. There is a defect in the program. The log of the service has the
+    /// details.
     ///
-    /// Fix: report it with what the log says.
+    /// Fix: report it with the lines of the log.
     #[error("something went wrong inside: {cause}")]
     Internal {
-        /// What went wrong.
+        /// The cause.
         cause: String,
     },
 
-    /// V616 wrong method. The path does not take this method of HTTP.
+    /// V616 wrong method. The path does not support this HTTP method.
     ///
-    /// Fix: use one that [the description of the API](api.md) has for the path.
+    /// Fix: use one that [the description of the API](api.md) lists for the path.
     #[error("the path does not take {method}")]
     NotAllowed {
         /// The method.
         method: String,
     },
 
-    /// V617 what-if contradicts what happened. A what-if has fewer stands than the day has already
-    /// used, so what has happened could not have happened.
+    /// V617 what-if contradicts the past. A what-if has fewer stands than the day has already used,
+    /// so an earlier event would have been impossible.
     ///
-    /// Fix: ask for a day on which every event so far was possible.
+    /// Fix: request a change under which every event so far was possible.
     #[error("the day could not have gone as it did: {rule}")]
     Contradiction {
         /// The event, and why it was not possible.
@@ -262,10 +263,10 @@ pub enum Error {
     },
 
     /// V619 address not protected. `--listen` names an address that other machines can reach, and
-    /// what is said there is not encrypted, or there is no token.
+    /// connections are not encrypted, or there is no token.
     ///
-    /// Fix: listen on 127.0.0.1. Or let a proxy that speaks TLS stand before the service, say so
-    /// with `--behind-proxy`, and make a token.
+    /// Fix: listen on 127.0.0.1. Or put a proxy with TLS in front of the service, give
+    /// `--behind-proxy`, and make a token.
     #[error("{address} can be reached by others: {missing}")]
     Unprotected {
         /// The address.
@@ -283,12 +284,12 @@ pub enum Error {
         folder: PathBuf,
     },
 
-    /// V623 too many requests. A token sent more requests in a second than the service takes from
-    /// one: a client that asks again and again, or many clients with one token. Requests without a
-    /// token that is in force are counted together.
+    /// V623 too many requests. A token sent more requests in a second than the limit: one client
+    /// polls too often, or many clients share one token. Requests without a valid token are counted
+    /// together.
     ///
-    /// Fix: wait a second, ask less often, and give each client a separate token. A client that
-    /// wants to know what happens reads the stream of the day instead of asking for its state.
+    /// Fix: wait a second, poll less often, and give each client a separate token. A client that
+    /// follows a day reads its stream instead of polling its state.
     #[error("{who} sent more than {most} requests in a second")]
     TooOften {
         /// The token's name.
@@ -305,12 +306,12 @@ pub enum Error {
     BadCertificate {
         /// The file.
         file: PathBuf,
-        /// What is wrong.
+        /// The cause.
         rule: String,
     },
 
-    /// V625 unusable collector. `--otlp` or `OTEL_EXPORTER_OTLP_ENDPOINT` is no address of HTTP, or
-    /// a variable of OpenTelemetry asks for something that this program does not have, such as
+    /// V625 unusable collector. `--otlp` or `OTEL_EXPORTER_OTLP_ENDPOINT` is not an HTTP address,
+    /// or a variable of OpenTelemetry requests a feature that this program does not have, such as
     /// `OTEL_EXPORTER_OTLP_COMPRESSION`.
     ///
     /// Fix: name the collector as `http://127.0.0.1:4318`, by the port that takes OTLP over HTTP.
@@ -318,21 +319,21 @@ pub enum Error {
     BadCollector {
         /// The address.
         address: String,
-        /// What is wrong.
+        /// The cause.
         rule: String,
     },
 
-    /// V626 unusable base map. `--basemap` is no address of HTTP, or its host is no plain name or
-    /// number.
+    /// V626 unusable base map. `--basemap` is not an HTTP address, or its host is not a plain name
+    /// or number.
     ///
-    /// Fix: name a style or a PMTiles file as `https://tiles.example.com/style.json`. Whether
-    /// something is there is seen in the console, which keeps the bundled base map where another
-    /// cannot be loaded.
+    /// Fix: name a style or a PMTiles file as `https://tiles.example.com/style.json`. The program
+    /// does not check that it exists; the console keeps the bundled base map if another one cannot
+    /// be loaded.
     #[error("the console cannot show the base map {address:?}: {rule}")]
     BadBasemap {
         /// The address.
         address: String,
-        /// What is wrong.
+        /// The cause.
         rule: String,
     },
 
@@ -340,34 +341,33 @@ pub enum Error {
     /// and a browser may show a foreign page on it. The request names a host that is not this
     /// machine, or comes from a page of another one.
     ///
-    /// Fix: ask for `http://127.0.0.1:8080` or `http://localhost:8080`. For all else make a token
-    /// with `vertifleet serve token make`; then tokens alone count.
+    /// Fix: use `http://127.0.0.1:8080` or `http://localhost:8080`. For other addresses make a
+    /// token with `vertifleet serve token make`; then only tokens count.
     #[error("the service has no tokens, and the request {what} {named:?}")]
     ForeignPage {
-        /// What the request does.
+        /// The action of the request.
         what: &'static str,
         /// The host or the origin.
         named: String,
     },
 
-    /// V628 unusable address of a database. `--database` is no address of PostgreSQL.
+    /// V628 unusable address of a database. `--database` is not an address of PostgreSQL.
     ///
     /// Fix: name it as `postgres://user@host/database`.
     #[error("the address of the database must begin with postgres:// or postgresql://")]
     BadDatabase,
 
-    /// V629 token name in use. A token with this name is in force, and two with one name could not
-    /// be told apart in the record of who did what.
+    /// V629 token name in use. A token with this name is valid, and the audit could not distinguish
+    /// two with one name.
     ///
-    /// Fix: name the new one otherwise, or revoke the other one first.
+    /// Fix: choose another name, or revoke the other token first.
     #[error("a token with the name {name:?} is in force")]
     NameTaken {
         /// The name.
         name: String,
     },
 
-    /// V630 policy in use. A policy of your own is to be deleted, and days that are not archived
-    /// are decided by it.
+    /// V630 policy in use. The policy to delete decides on days that are not archived.
     ///
     /// Fix: archive these days, or keep the policy.
     #[error("policy {name:?} decides on {days} days that are not archived")]
@@ -379,14 +379,14 @@ pub enum Error {
     },
 
     /// V621 conflict between services. Several services share a database, and another one wrote to
-    /// the same day at the same time, again and again.
+    /// the same day at the same time, repeatedly.
     ///
     /// Fix: send the request again, with the same `Idempotency-Key`.
     #[error("another service wrote to the day at the same time")]
     Conflict,
 
-    /// V622 request too slow. The body of the request came too slowly, or the service has too much
-    /// to do.
+    /// V622 request too slow. The body of the request arrived too slowly, or the service is
+    /// overloaded.
     ///
     /// Fix: send the request again, with the same `Idempotency-Key`.
     #[error("the request took longer than {limit_s} s")]
@@ -397,12 +397,12 @@ pub enum Error {
 }
 
 impl Error {
-    /// A policy that failed, which none of ours does.
+    /// A policy that failed, which no policy of the program does.
     pub(crate) fn of_policy(policy: &str, error: &PolicyError) -> Self {
         Self::Internal { cause: format!("policy {policy:?}: {error}") }
     }
 
-    /// The same error with the day that it is about.
+    /// The same error with the id of its day.
     pub(crate) fn of_day(self, id: &str) -> Self {
         match self {
             Self::BadData { rule } => Self::BadData { rule: format!("day {id}: {rule}") },
@@ -410,7 +410,7 @@ impl Error {
         }
     }
 
-    /// An event that could not have happened on a day that begins otherwise.
+    /// An event that is not possible on a day that begins differently.
     pub(crate) fn of_what_if(self) -> Self {
         match self {
             Self::BadData { rule } => Self::Contradiction { rule },
@@ -418,7 +418,7 @@ impl Error {
         }
     }
 
-    /// An id that a day does not have.
+    /// An unknown id of a day.
     pub(crate) fn unknown(what: &'static str, id: &str) -> Self {
         Self::UnknownId { what, id: id.chars().take(64).collect() }
     }

@@ -1,5 +1,4 @@
-//! Events as they are written and read: what a live day is told, in JSON, with ids instead of
-//! positions.
+//! Events in JSON: everything that is reported to a live day, with ids instead of positions.
 
 use std::fmt;
 
@@ -17,11 +16,11 @@ use crate::moment::Moment;
 /// An event: something that happened, was decided or became known, and when.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub(crate) struct Event {
-    /// When it happened or became known. Without it, that is now: the latest time that the day has
-    /// heard of.
+    /// When it happened or became known. Without it, that is now: the latest time that was
+    /// reported.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) time: Option<Moment>,
-    /// What happened.
+    /// The kind of event, with its members.
     #[serde(flatten)]
     pub(crate) what: EventKind,
 }
@@ -90,7 +89,7 @@ impl<'de, A: MapAccess<'de>> MapAccess<'de> for WithoutTime<'_, A> {
     }
 }
 
-/// The most characters of a reason.
+/// Largest number of characters in a reason.
 const LONGEST_REASON: usize = 1_000;
 
 /// Reads a reason. The service sends it to every reader of the day, so its length is limited.
@@ -103,24 +102,24 @@ pub(crate) fn reason<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String
     Ok(reason)
 }
 
-/// What happened.
+/// The kind of an event, with its members.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum EventKind {
-    /// The day is at this time; nothing else is known. Other events may not lie more than four
-    /// hours after the latest.
+    /// The day has reached this time; nothing else is known. Other events may be at most four hours
+    /// later than the latest time.
     Clock,
-    /// An aircraft that is ready is to fly to a vertiport; its own vertiport means hold. The rules
-    /// must permit it.
+    /// A ready aircraft flies to a vertiport; its own vertiport means hold. The rules must permit
+    /// it.
     Decided {
         /// The aircraft.
         aircraft: String,
         /// The vertiport.
         to: String,
-        /// The policy that proposed it; absent if a person chose. The service alone says it.
+        /// The policy that proposed it; absent if a person chose. Only the service sets it.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         policy: Option<String>,
-        /// What the policy would have chosen, if a person overruled it. The service alone says it.
+        /// The choice of the policy, if a person overruled it. Only the service sets it.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         instead_of: Option<String>,
         /// Why a person chose.
@@ -128,7 +127,7 @@ pub(crate) enum EventKind {
         #[schema(max_length = 1_000)]
         reason: Option<String>,
     },
-    /// The latest decision of an aircraft is taken back. It must not have departed.
+    /// The latest decision of an aircraft is cancelled. It must not have departed.
     Undone {
         /// The aircraft.
         aircraft: String,
@@ -141,10 +140,10 @@ pub(crate) enum EventKind {
     Departed {
         /// The aircraft.
         aircraft: String,
-        /// Where it flies to, if that is not what was decided.
+        /// The destination, if it differs from the decision.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         to: Option<String>,
-        /// Passengers on board, if not as many as expected.
+        /// Passengers on board, if their number differs from the expected one.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[schema(maximum = 65_535)]
         passengers: Option<u16>,
@@ -153,7 +152,7 @@ pub(crate) enum EventKind {
     Landed {
         /// The aircraft.
         aircraft: String,
-        /// Where it is, if that is not where it was flying to.
+        /// The vertiport, if it is not the planned destination.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         at: Option<String>,
     },
@@ -169,8 +168,8 @@ pub(crate) enum EventKind {
         /// The aircraft.
         aircraft: String,
     },
-    /// What an aircraft does next is expected at another time: its departure if it has been sent
-    /// off, its landing if it is in the air, the end of charging if it stands.
+    /// The next step of an aircraft is expected at another time: its departure if it has been
+    /// dispatched, its landing if it is in the air, the end of charging if it stands.
     Delayed {
         /// The aircraft.
         aircraft: String,
@@ -194,8 +193,8 @@ pub(crate) enum EventKind {
         /// The aircraft.
         aircraft: String,
     },
-    /// Routes are closed to new flights: one way between two vertiports, or all that lead to a
-    /// vertiport or away from it.
+    /// Routes are closed to new flights: one direction between two vertiports, or all routes to or
+    /// from a vertiport.
     Closed {
         /// The routes.
         routes: RouteNames,
@@ -231,7 +230,7 @@ pub(crate) enum EventKind {
         #[schema(format = Int64, maximum = 4_294_967_295u32)]
         passengers: u32,
     },
-    /// Passengers do not want to fly any more.
+    /// Passengers no longer want to fly.
     Cancelled {
         /// A time in the period in which they wanted to fly.
         period: Moment,
@@ -243,7 +242,7 @@ pub(crate) enum EventKind {
         #[schema(format = Int64, maximum = 4_294_967_295u32)]
         passengers: u32,
     },
-    /// A vertiport has another number of stands, or of chargers where they are counted apart.
+    /// The number of stands of a vertiport changes, or of chargers if they are counted separately.
     Stands {
         /// The vertiport.
         vertiport: String,
@@ -263,9 +262,9 @@ pub(crate) enum EventKind {
 pub(crate) enum RouteNames {
     /// From one vertiport to another.
     Way {
-        /// Vertiport that flights leave.
+        /// The vertiport of departure.
         from: String,
-        /// Vertiport that flights fly to.
+        /// The vertiport of destination.
         to: String,
     },
     /// All routes of a vertiport.
@@ -283,13 +282,13 @@ pub(crate) struct PairDemand {
     pub(crate) from: String,
     /// Where they want to go.
     pub(crate) to: String,
-    /// How many of them still want to fly.
+    /// The number of them who still want to fly.
     #[schema(format = Int64, maximum = 4_294_967_295u32)]
     pub(crate) passengers: u32,
 }
 
 impl EventKind {
-    /// The report that the simulator takes.
+    /// The event as a report to the simulator.
     ///
     /// # Errors
     /// Returns [`Error::UnknownId`] if the day has no such aircraft or vertiport.

@@ -1,8 +1,8 @@
-//! Requests of any content, for fuzzing. Whatever comes, it is answered, and every day stays one
-//! that can be described, played on, and read again from the store as it is in memory.
+//! Requests with any content, for fuzzing. Every request is answered. Every day can afterwards be
+//! described and played on, and its state in memory equals that in the store.
 //!
-//! Requests go through the router of the service, so all that is read of a request is read here as
-//! it is there: paths, queries, headers, bodies, and what is in them.
+//! Requests go through the service's router, so the fuzzer reaches all of its parsers: paths,
+//! queries, headers, bodies, and their contents.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -26,22 +26,22 @@ use crate::tokens::Role;
 
 /// A small day of three vertiports, `A`, `B` and `C`, and three aircraft, `A01`, `A02` and `A03`.
 const SCENARIO: &str = include_str!("../../core/tests/data/small.json");
-/// What takes a body, on a day.
+/// The paths of a day that take a body.
 const TAKE_BODIES: [&str; 3] = ["events", "decisions", "what-if"];
-/// What takes a query, on a day.
+/// The paths of a day that take a query.
 const TAKE_QUERIES: [&str; 6] =
     ["state", "demand", "events", "stream", "outlook", "aircraft/A01/decision"];
-/// The headers with a special meaning.
+/// The headers with a meaning.
 const HEADERS: [&str; 4] = ["authorization", "idempotency-key", "if-match", "last-event-id"];
 
-/// A service that is reached through nothing but this.
+/// A service that only the fuzzer uses.
 #[derive(Debug)]
 pub struct AnyRequest {
     runtime: Runtime,
     client: Client,
 }
 
-/// Sends requests, and looks at the answers.
+/// Sends requests, and checks the answers.
 #[derive(Debug)]
 struct Client {
     router: TowerToHyperService<Router>,
@@ -64,7 +64,7 @@ impl AnyRequest {
         let runtime = runtime.expect("a thread");
         let client = runtime.block_on(async {
             let store = Store::open(&location).await.expect("a folder of ours");
-            // Requests come as fast as they are answered.
+            // No limit on the rate of requests.
             let limits = Limits { requests_per_s: 1_000_000, ..Limits::default() };
             let service = Service::new(store, limits).await;
             let service = Arc::new(service.expect("it is new"));
@@ -77,12 +77,11 @@ impl AnyRequest {
         Self { runtime, client }
     }
 
-    /// Sends bytes in the place of everything that a request may have: as a body, as a query, as a
-    /// part of a path, and as a header. Returns whether a request with this body was carried out.
+    /// Sends bytes in place of each part that a client controls: as a body, as a query, as a part
+    /// of a path, and as a header. Returns whether a request with this body was carried out.
     ///
     /// # Panics
-    /// Panics if a request is not answered as it should be, or if a day is not as it should be
-    /// afterwards.
+    /// Panics if the answer to a request is wrong, or if a day is invalid afterwards.
     pub fn send(&mut self, bytes: &[u8]) -> bool {
         self.runtime.block_on(self.client.send_everywhere(bytes))
     }
@@ -149,7 +148,7 @@ impl Client {
         }
     }
 
-    /// Sends requests that change nothing, whatever their headers say.
+    /// Sends requests that change nothing, with any headers.
     async fn headers(&mut self, value: &HeaderValue) {
         for name in HEADERS {
             for (method, path) in [(Method::POST, "events"), (Method::GET, "stream")] {
@@ -184,7 +183,7 @@ impl Client {
             .get(header::CONTENT_TYPE)
             .is_some_and(|kind| kind == "text/event-stream");
         if is_stream {
-            // It has no end.
+            // A stream has no end.
             return None;
         }
         let body = answer.into_body().collect().await.expect("it is all there").to_bytes();
@@ -198,7 +197,7 @@ impl Client {
         None
     }
 
-    /// The path of what a request makes, if it is carried out.
+    /// The path of the object that a request creates, if it is carried out.
     async fn make(&mut self, list: &str, body: &[u8]) -> Option<String> {
         let made = self.ask(Method::POST, uri(list).expect("plain text"), body).await?;
         Some(format!("{list}/{}", made["id"].as_str().expect("an id")))
@@ -208,7 +207,7 @@ impl Client {
         self.ask(Method::DELETE, uri(path).expect("plain text"), b"").await;
     }
 
-    /// What can always be read.
+    /// Reads a path that must always be readable.
     async fn get(&mut self, path: &str) -> Value {
         let answer = self.ask(Method::GET, uri(path).expect("plain text"), b"").await;
         answer.unwrap_or_else(|| panic!("{path} can be read"))
@@ -222,7 +221,8 @@ impl Client {
         self.make("/v1/days", body.to_string().as_bytes()).await.expect("a good day")
     }
 
-    /// Checks that a day can be described and played on, and is in the store as it is in memory.
+    /// Checks that a day can be described and played on, and is the same in the store and in
+    /// memory.
     async fn check_and_delete(&mut self, day: &str) {
         let info = self.get(day).await;
         let state = self.get(&format!("{day}/state")).await;
@@ -252,11 +252,11 @@ mod tests {
 
     use super::AnyRequest;
 
-    /// The number of ways in which every good request is spoilt.
+    /// The number of mutations of every valid request.
     const WAYS: u32 = 100;
 
-    /// Bodies (`.json`), queries and other texts that mean something on the small day. Fuzzing
-    /// begins with them.
+    /// Bodies (`.json`), queries and other texts that are valid on the small day. Fuzzing begins
+    /// with them.
     fn good() -> Vec<(PathBuf, Vec<u8>)> {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/requests");
         let files = std::fs::read_dir(folder).expect("a folder of the project");

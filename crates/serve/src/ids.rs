@@ -1,4 +1,4 @@
-//! The ids of a day, by which everything outside the simulator names aircraft and vertiports.
+//! The ids of a day, which name aircraft and vertiports everywhere outside the simulator.
 
 use std::collections::HashMap;
 

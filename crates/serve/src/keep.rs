@@ -1,5 +1,4 @@
-//! Keeping the data: every event checked, copies made and put back, days written out for other
-//! programs.
+//! Maintenance of the data: checks every event, makes and restores copies, and exports days.
 
 mod tokens;
 
@@ -19,25 +18,25 @@ use crate::error::Error;
 use crate::store::{AuditRecord, DATABASE, Location, PAGE, Store, StoredDay, make_folder};
 use crate::taken_event::TakenEvent;
 
-/// The data of a service, which may run meanwhile.
+/// The data of a service, which may be running.
 #[derive(Debug)]
 pub struct Keeper {
     runtime: Runtime,
     store: Store,
 }
 
-/// What was found about a day.
+/// The findings about a day.
 #[derive(Debug, Clone, Serialize)]
 pub struct DayCheck {
     /// Its id.
     pub day: String,
     /// Number of its events that are sound, from the first on.
     pub events: u64,
-    /// What is wrong with the next one, or with the day; `None` if nothing is.
+    /// The error in the next one, or in the day; `None` if there is none.
     pub finding: Option<String>,
 }
 
-/// How much data there is.
+/// The amount of data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Contents {
     /// Number of days.
@@ -46,7 +45,7 @@ pub struct Contents {
     pub events: u64,
 }
 
-/// A day as it is written out.
+/// An exported day.
 #[derive(Debug, Serialize)]
 struct Exported {
     format: &'static str,
@@ -56,7 +55,7 @@ struct Exported {
     events: Vec<ExportedEvent>,
 }
 
-/// An event as it is written out, without what the log needs.
+/// An exported event, without the members that only the log needs.
 #[derive(Debug, Serialize)]
 struct ExportedEvent {
     seq: u64,
@@ -66,7 +65,7 @@ struct ExportedEvent {
     notices: Box<RawValue>,
 }
 
-/// Name and version of the format of days that are written out.
+/// Name and version of the format of exported days.
 const FORMAT: &str = "vertifleet-live-day/1";
 
 impl Drop for Keeper {
@@ -76,10 +75,10 @@ impl Drop for Keeper {
 }
 
 impl Keeper {
-    /// Opens the data of a service, which must be there.
+    /// Opens the data of a service, which must exist.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] or [`Error::BadData`] if it is not there or cannot be opened.
+    /// Returns [`Error::Store`] or [`Error::BadData`] if it does not exist or cannot be opened.
     pub fn open(location: &Location) -> Result<Self, Error> {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(|cause| Error::Internal { cause: cause.to_string() })?;
@@ -87,8 +86,8 @@ impl Keeper {
         Ok(Self { runtime, store })
     }
 
-    /// Reads every event of every day, checks its sum, and plays it. Days that are gone although
-    /// they were not deleted come last.
+    /// Reads every event of every day, checks its checksum, and plays it. Days that are missing
+    /// although they were not deleted come last.
     ///
     /// # Errors
     /// Returns [`Error::Store`] if the data cannot be read at all.
@@ -111,7 +110,7 @@ impl Keeper {
         Ok(())
     }
 
-    /// Checks a day; `None` if it has been deleted meanwhile.
+    /// Checks a day; `None` if it has been deleted in the meantime.
     async fn check(&self, id: &str) -> Result<Option<DayCheck>, Error> {
         let check = |events, finding| Some(DayCheck { day: id.to_owned(), events, finding });
         let (_, scenario) = match self.store.day(id).await {
@@ -120,7 +119,7 @@ impl Keeper {
             Err(Error::BadData { rule }) => return Ok(check(0, Some(rule))),
             Err(error) => return Err(error),
         };
-        // The head first: the service may add events meanwhile.
+        // The head first: the service may add events in the meantime.
         let Some(head) = self.store.head(id).await? else { return Ok(None) };
         let mut state = match Scenario::from_json(scenario.as_bytes(), id) {
             Ok(scenario) => DispatchDay::new(Arc::new(scenario)),
@@ -135,10 +134,10 @@ impl Keeper {
         }
     }
 
-    /// Writes a copy of all data to a new file, as it is at one moment, while the service may run.
+    /// Writes a consistent copy of all data to a new file, while the service may be running.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] if the file exists or cannot be written, or if the data lies in
+    /// Returns [`Error::Store`] if the file exists or cannot be written, or if the data is in
     /// `PostgreSQL`, whose own programs make copies.
     pub fn backup(&self, file: &Path) -> Result<(), Error> {
         if self.store.is_shared() {
@@ -148,14 +147,15 @@ impl Keeper {
         if file.exists() {
             return Err(Error::Store { cause: format!("{} is there already", file.display()) });
         }
-        // Under another name until it is whole, so that half a copy never looks like one.
+        // Under another name until it is complete, so that an incomplete copy is never mistaken for
+        // one.
         let mut unfinished = file.as_os_str().to_owned();
         unfinished.push(".unfinished");
         let unfinished = PathBuf::from(unfinished);
         let failed = |error: std::io::Error| Error::Store {
             cause: format!("{}: {error}", unfinished.display()),
         };
-        // SQLite fills a file that is empty, and leaves it to those who may read it.
+        // SQLite fills an existing empty file, and keeps its permissions.
         let written = new_private_file(&unfinished).map_err(failed).and_then(|_| {
             self.runtime.block_on(self.store.copy_to(&unfinished.display().to_string()))
         });
@@ -164,16 +164,16 @@ impl Keeper {
             std::fs::rename(&unfinished, file).map_err(failed)
         });
         if named.is_err() {
-            // It may never have been made.
+            // It may not exist.
             let _ = std::fs::remove_file(&unfinished);
         }
         named
     }
 
-    /// The actions other than the events of days, in order.
+    /// The actions of users except events of days, in order.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] if it cannot be read.
+    /// Returns [`Error::Store`] if they cannot be read.
     pub fn audit(&self) -> Result<Vec<AuditRecord>, Error> {
         self.runtime.block_on(self.store.audit())
     }
@@ -212,7 +212,7 @@ fn written_out(day: StoredDay, scenario: String, events: Vec<TakenEvent>) -> Res
     Ok(serde_json::to_string_pretty(&exported).expect("plain data can be written"))
 }
 
-/// Puts a copy back as the data of a service, into a folder that has none.
+/// Restores a copy as the data of a service, into a folder that has none.
 ///
 /// # Errors
 /// Returns [`Error::Store`] if the folder has data already or cannot be written to, and
@@ -220,7 +220,7 @@ fn written_out(day: StoredDay, scenario: String, events: Vec<TakenEvent>) -> Res
 pub fn restore(copy: &Path, folder: &Path) -> Result<Contents, Error> {
     let database = folder.join(DATABASE);
     let failed = |cause: String| Error::Store { cause };
-    // A log that an earlier database left behind would be played into the copy.
+    // A log left behind by an earlier database would be applied to the copy.
     for name in [DATABASE.to_owned(), format!("{DATABASE}-wal"), format!("{DATABASE}-shm")] {
         let there = folder.join(name);
         if there.exists() {
@@ -230,8 +230,8 @@ pub fn restore(copy: &Path, folder: &Path) -> Result<Contents, Error> {
     }
     let bytes =
         std::fs::read(copy).map_err(|error| failed(format!("{}: {error}", copy.display())))?;
-    // It is checked in a separate place, so that a damaged copy never looks like the data of a
-    // service.
+    // The copy is checked in a separate folder, so that a damaged one is never mistaken for the
+    // data of a service.
     let trial: PathBuf = folder.join("restoring");
     let io_failed = |error: std::io::Error| failed(format!("{}: {error}", trial.display()));
     make_folder(&trial).map_err(io_failed)?;
@@ -253,7 +253,7 @@ fn put_back(bytes: &[u8], trial: &Path, database: &Path) -> Result<Contents, Err
     };
     write(DATABASE).map_err(failed)?;
     let contents = check_copy(trial)?;
-    // What was looked at may have changed in doing so.
+    // Opening the copy for the check may have changed it.
     write("copy").map_err(failed)?;
     std::fs::rename(trial.join("copy"), database).map_err(failed)?;
     if let Some(folder) = database.parent() {
@@ -262,7 +262,7 @@ fn put_back(bytes: &[u8], trial: &Path, database: &Path) -> Result<Contents, Err
     Ok(contents)
 }
 
-/// Makes a file that its owner alone can read.
+/// Creates a file that only its owner can read.
 fn new_private_file(path: &Path) -> std::io::Result<std::fs::File> {
     let mut options = std::fs::OpenOptions::new();
     #[cfg(unix)]

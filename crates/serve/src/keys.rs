@@ -1,8 +1,8 @@
-//! The keys of requests: which are being carried out, and which may have been before.
+//! The keys of requests: those in progress, and those that may have been used.
 //!
-//! A request with a key that was never used must not wait for the store to say so. All used keys
-//! are therefore kept in memory, as hashes, as long as there are not too many; otherwise, and for a
-//! key that may be known, the store is asked.
+//! A request with an unused key must not wait for the store. So all used keys are kept in memory,
+//! as hashes, up to a limit. Beyond it, and for a key that may have been used, the service queries
+//! the store.
 
 use std::collections::HashSet;
 use std::hash::{BuildHasher as _, RandomState};
@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::error::Error;
 use crate::store::StoredAnswer;
 
-/// The most hashes in memory; they take about 50 MB.
+/// Largest number of hashes in memory; they take about 50 MB.
 const MOST: usize = 4_000_000;
 
 /// The keys of a service.
@@ -25,30 +25,30 @@ pub(crate) struct Keys {
 
 #[derive(Debug, Default)]
 struct State {
-    /// Keys of requests that are being carried out.
+    /// Keys of requests in progress.
     busy: HashSet<String>,
-    /// Hashes of all keys that were ever used; `None` if they are not known.
+    /// Hashes of all keys that were ever used; `None` if they are unknown.
     used: Option<HashSet<u64>>,
 }
 
-/// Holds a key while its request is carried out.
+/// Reserves a key while its request is carried out.
 #[derive(Debug)]
 pub(crate) struct Busy {
     keys: Arc<Keys>,
     key: String,
 }
 
-/// A request that is carried out once, however often it comes.
+/// A request that is carried out once, even if it arrives repeatedly.
 #[derive(Debug, Clone)]
 pub(crate) struct Idempotency {
     /// The key.
     pub(crate) key: String,
-    /// The request, shortened to a sum.
+    /// The checksum of the request.
     pub(crate) request: String,
 }
 
 impl Idempotency {
-    /// The answer, to be given again.
+    /// The answer to store with the key.
     pub(crate) fn answered_with(self, answer: &impl Serialize) -> StoredAnswer {
         let answer = serde_json::to_string(answer).expect("plain data can be written");
         StoredAnswer { key: self.key, request: self.request, answer }
@@ -73,7 +73,7 @@ impl Keys {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes a key for a request. Returns whether it may have been used before.
+    /// Reserves a key for a request. Returns whether it may have been used before.
     ///
     /// # Errors
     /// Returns [`Error::KeyInUse`] if a request with this key is being carried out.

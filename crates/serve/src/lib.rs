@@ -1,10 +1,9 @@
-//! The dispatch service: live days, what happens on them, and decisions with their reasons, over
-//! HTTP.
+//! The dispatch service: live days, their events, and decisions with their reasons, over HTTP.
 //!
 //! A day is a scenario and a log of events; its state is the fold of the log by the simulator's
 //! rules ([`vertifleet_sim::live`]) and nothing else. An event is durable before it is
-//! acknowledged: a day takes it in memory, one writer commits many at a time, and only then do
-//! the client and the readers hear of it.
+//! acknowledged: a day applies it in memory, one writer commits many at a time, and only then do
+//! the client and the readers receive it.
 
 mod access;
 mod api;

@@ -1,4 +1,4 @@
-//! Limits of the service, so that no client keeps it from others.
+//! Limits of the service, so that no client can block others.
 
 use std::time::Duration;
 
@@ -12,9 +12,9 @@ pub struct Limits {
     pub connections_per_address: usize,
     /// Streams of events at once.
     pub streams: usize,
-    /// Requests of one token in a second, on the mean; twice as many at once.
+    /// Requests of one token per second, on average; twice as many in a burst.
     pub requests_per_s: u32,
-    /// Days that are kept.
+    /// Largest number of days.
     pub days: u64,
     /// Events of a day.
     pub events: u64,

@@ -1,15 +1,15 @@
-//! The mark of an event: its number and the sum over the log up to it, as `17-9af3c210`. A day that
-//! was put back from a copy and went on may have an event of the same number; its mark is another
-//! one.
+//! The mark of an event: its number and the checksum over the log up to it, as `17-9af3c210`. A day
+//! that was restored from a copy and continued may have another event of the same number; its mark
+//! differs.
 
 use std::fmt;
 
-/// Which event of which log is meant.
+/// Identifies an event of a log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct EventMark {
     /// The number of the event; 0 before the first.
     pub(crate) seq: u64,
-    /// The sum over the log up to it; `None` if the number alone is known.
+    /// The checksum over the log up to it; `None` if only the number is known.
     pub(crate) chain: Option<u32>,
 }
 

@@ -1,4 +1,4 @@
-//! What the service measures about itself, for Prometheus.
+//! The metrics of the service, for Prometheus.
 
 use prometheus_client::encoding::text::encode;
 use prometheus_client::metrics::counter::Counter;
@@ -13,7 +13,7 @@ use crate::clock::now_ms;
 /// Names with values, which identify a series of a metric.
 type Labels<const N: usize> = [(&'static str, String); N];
 
-/// The numbers.
+/// The metrics.
 #[derive(Debug)]
 pub(crate) struct Metrics {
     registry: Registry,
@@ -22,7 +22,7 @@ pub(crate) struct Metrics {
     decision_seconds: Family<Labels<1>, Histogram>,
     /// Events that were stored.
     pub(crate) events: Counter,
-    /// Writes to the disk, each for all events that waited.
+    /// Writes to the disk, each with all waiting events.
     pub(crate) commits: Counter,
     /// Days in memory.
     pub(crate) days: Gauge,
@@ -72,7 +72,7 @@ impl Metrics {
         self
     }
 
-    /// Counts a request that was answered. `path` is the one of the description.
+    /// Counts a request that was answered. `path` is the one in the description.
     pub(crate) fn answered(&self, method: &str, path: &str, status: u16, seconds: f64) {
         let (method, path) = (("method", method.to_owned()), ("path", path.to_owned()));
         let of_path = [method.clone(), path.clone()];
@@ -85,7 +85,7 @@ impl Metrics {
         self.decision_seconds.get_or_create(&[("policy", policy.to_owned())]).observe(seconds);
     }
 
-    /// Everything in Prometheus's text format.
+    /// All metrics in Prometheus's text format.
     pub(crate) fn text(&self) -> String {
         let mut text = String::new();
         encode(&mut text, &self.registry).expect("memory takes everything");

@@ -11,13 +11,12 @@ use vertifleet_core::Time;
 use crate::calendar::Calendar;
 
 thread_local! {
-    /// What times mean while a request is read or an answer written. A type that is read or written
-    /// as JSON is told nothing of the day that it belongs to, so it stands here.
+    /// The calendar of times while a request is read or an answer written. A type that is read from
+    /// or written as JSON has no access to its day, so the calendar is here.
     static CALENDAR: RefCell<Option<Calendar>> = const { RefCell::new(None) };
 }
 
-/// Does some reading or writing of times with the calendar of their day; without a calendar, times
-/// have no dates.
+/// Reads or writes times with the calendar of their day; without a calendar, times have no dates.
 pub(crate) fn by_calendar<T>(calendar: Option<&Calendar>, work: impl FnOnce() -> T) -> T {
     struct Put(Option<Calendar>);
     impl Drop for Put {
@@ -40,11 +39,11 @@ pub(crate) fn is_by_calendar() -> bool {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Moment(Time);
 
-/// What the texts of times look like. What follows from the latest time that is taken may lie after
+/// The pattern of the texts of times. Times that follow from the latest accepted time may be after
 /// 100:00:00.
 const PATTERN: &str =
     "^([0-9]{1,4}:[0-5][0-9]:[0-5][0-9]|[0-9]{1,6}|[0-9]{4}-[0-9]{2}-[0-9]{2}T.*[0-9].*)$";
-/// No day lasts longer, seconds.
+/// Longest day, seconds.
 const LATEST_S: u32 = 100 * 3600;
 
 impl Moment {
@@ -59,7 +58,7 @@ impl Moment {
         time.ok_or_else(|| "a time must lie before 100:00:00".to_owned())
     }
 
-    /// Reads a text. The error is the rule that it breaks.
+    /// Parses a text. The error is the rule that it breaks.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         if let Ok(seconds) = text.parse() {
             return Self::of_seconds(seconds);

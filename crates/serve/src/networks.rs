@@ -19,7 +19,7 @@ pub(crate) struct NetworkInfo {
     pub(crate) name: String,
     /// Whether the program ships it; the others were uploaded.
     pub(crate) is_shipped: bool,
-    /// The time zone of its clocks by its name in the IANA database, if it says so.
+    /// The time zone of its clocks by its name in the IANA database, if it has one.
     pub(crate) time_zone: Option<String>,
     /// Its vertiports, in the order of its file.
     pub(crate) vertiports: Vec<VertiportInfo>,
@@ -35,9 +35,9 @@ pub(crate) struct NetworkInfo {
     pub(crate) periods: Vec<Moment>,
     /// Mean passengers of a day.
     pub(crate) passengers: f64,
-    /// What is allowed but hardly meant.
+    /// Settings that are allowed but probably not intended.
     pub(crate) warnings: Vec<String>,
-    /// The network file, where one network is asked for.
+    /// The network file, if one network is read.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) toml: Option<String>,
 }
@@ -57,7 +57,7 @@ pub(crate) struct VertiportInfo {
     longitude: Option<f64>,
     /// Its stands.
     stands: u16,
-    /// Its chargers, where they are counted apart from stands.
+    /// Its chargers, if they are counted separately from stands.
     chargers: Option<u16>,
 }
 
@@ -98,7 +98,7 @@ impl NetworkInfo {
     }
 }
 
-/// The network of a text that a caller brings.
+/// Parses the text of a network that a caller sends.
 pub(crate) fn read(toml: &str) -> Result<Network, Error> {
     Ok(Network::from_toml(toml, "the network")?)
 }
@@ -132,8 +132,8 @@ pub(crate) async fn list(store: &Store) -> Result<Vec<NetworkInfo>, Error> {
     Ok(networks)
 }
 
-/// Reads a network that was uploaded to say what it is, and keeps that for the next time. `None` if
-/// it is gone.
+/// Reads an uploaded network to describe it, and stores the description. `None` if the network is
+/// gone.
 async fn described(
     store: &Store,
     name: &str,
@@ -145,8 +145,8 @@ async fn described(
     Ok(Some(info))
 }
 
-/// Keeps a network under its name, in the place of one that was uploaded before. Days that were
-/// made stay as they are.
+/// Stores a network under its name, and replaces one that was uploaded before. Existing days keep
+/// the network that they were made from.
 ///
 /// # Errors
 /// Returns the errors of [`check`], [`Error::BadRequest`] if the name is another one or that of a
@@ -202,7 +202,7 @@ mod tests {
             uploaded.into_iter().next().and_then(|ours| ours.description)
         };
         assert_eq!(described().await.as_ref(), Some(&kept), "to the last digit");
-        // As a program that keeps no descriptions would put it.
+        // As a program without descriptions would store it.
         let other = ours.replace("count = 40", "count = 39");
         let stored =
             crate::store::StoredNetwork { name: "ours".to_owned(), toml: other, created_ms: 2 };

@@ -1,5 +1,5 @@
 //! The simulated operator: plays a whole day through the public API, as the people and systems of
-//! an operator would. It is the demonstration, the load, and the test from end to end.
+//! an operator would. It is the demo, the load, and the end-to-end test.
 
 mod by_hand;
 mod client;
@@ -26,23 +26,23 @@ pub struct Operation {
     pub url: String,
     /// The day, with everything that will happen on it.
     pub day: Arc<Scenario>,
-    /// The time zone of the day, if it is to have one; it is today there.
+    /// The time zone of the day, if it has one; the date is today's there.
     pub time_zone: Option<String>,
     /// The policy that decides.
     pub policy: String,
-    /// The token of the operator, if the service asks for one.
+    /// The token of the operator, if the service requires one.
     pub token: Option<String>,
-    /// A PEM file with certificates to trust, in place of those of the world.
+    /// A PEM file with certificates to trust, in place of the public ones.
     pub trusted: Option<PathBuf>,
-    /// Seconds of the day that pass in a second; `None` to go as fast as it goes.
+    /// Seconds of the day per second; `None` for full speed.
     pub speed: Option<f64>,
-    /// Whether others decide, as people at their consoles do. The operator tells the service the
-    /// time of each decision, and the day waits until it is taken.
+    /// Whether others decide, such as people at their consoles. The operator reports the time of
+    /// each decision, and the day waits until it is taken.
     pub by_hand: bool,
 }
 
 impl Operation {
-    /// A day that a service of this machine decides by a policy, as fast as it goes.
+    /// A day on which a policy of a local service decides, at full speed.
     pub fn new(url: &str, day: Arc<Scenario>, policy: &str) -> Self {
         Self {
             url: url.to_owned(),
@@ -57,7 +57,7 @@ impl Operation {
     }
 }
 
-/// What came of a day.
+/// The result of a day.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OperationReport {
     /// The id of the day in the service.
@@ -71,12 +71,11 @@ pub struct OperationReport {
     pub decision_median_ms: f64,
     /// 99 % of the decisions took at most this long, milliseconds.
     pub decision_p99_ms: f64,
-    /// Requests that had to be sent again because the service did not answer.
+    /// Requests that were repeated because the service did not answer.
     pub sent_again: u64,
 }
 
-/// Operates a day to its end. `watch` is called with the time of each decision and how long it
-/// took.
+/// Operates a day to its end. `watch` is called with the time of each decision and its duration.
 ///
 /// # Errors
 /// Returns [`Error::NoAnswer`] if the service does not answer or refuses a request.
@@ -134,7 +133,7 @@ pub fn operate(
     }))
 }
 
-/// The day as it is expected, which is all that the service is told of it beforehand.
+/// The day as forecast; the service receives nothing else about it in advance.
 fn new_day(operation: &Operation) -> Value {
     let scenario: Value = serde_json::from_str(&operation.day.expected().to_json())
         .expect("a scenario is written as JSON");

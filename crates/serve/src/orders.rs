@@ -1,11 +1,11 @@
-//! Tests that play the steps of several parties in every order in which they can happen.
+//! Runs the steps of several parties in every possible order, for tests.
 
-/// The choices that one order is made of: which of the parties takes its next step, each time.
+/// The choices that define one order: the party that takes each next step.
 #[derive(Debug, Default)]
 pub(crate) struct Choices {
-    /// Each choice with the number of those that there were.
+    /// Each choice with the number of alternatives.
     made: Vec<(usize, usize)>,
-    /// How many of them this order has come to.
+    /// Number of choices taken so far in this order.
     taken: usize,
 }
 

@@ -1,5 +1,4 @@
-//! The outlook of a day: how it is expected to go on, and what it would be if things were
-//! otherwise.
+//! The outlook of a day: its expected rest, now or under changed conditions.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -21,31 +20,31 @@ use crate::event::Event;
 use crate::ids::Ids;
 use crate::moment::Moment;
 
-/// How a day is expected to go on if a policy takes every decision from now on.
+/// The expected rest of a day if a policy takes every decision from now on.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct Outlook {
     /// The number of the latest event that it takes into account.
     pub(crate) seq: u64,
-    /// The latest time that the day has heard of.
+    /// The latest time that was reported.
     pub(crate) now: Moment,
     /// The policy.
     pub(crate) policy: String,
-    /// The policy that was asked, if it could not play the rest of the day in time. The one that is
-    /// named then did.
+    /// The requested policy, if it could not play the rest of the day in time. The policy in
+    /// `policy` then did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) too_late: Option<String>,
-    /// Profit so far, dollars: of the flights that have been sent off, less what the fleet costs
-    /// all day.
+    /// Profit so far, dollars: that of the flights that have been dispatched, less the fixed costs
+    /// of the fleet.
     pub(crate) profit_so_far_usd: f64,
-    /// The numbers of the whole day as it is expected to end.
+    /// The numbers of the whole day at its expected end.
     #[schema(value_type = Totals)]
     pub(crate) totals: DayTotals,
     /// An upper bound on the profit of the whole day, dollars, given what is known now. Proven, not
     /// estimated; absent if the rest of the day is too large to be bounded quickly.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) upper_bound_usd: Option<f64>,
-    /// Every flight and hold of the day, in the order of decisions: those that were taken, then
-    /// those that are expected.
+    /// Every flight and hold of the day, in the order of decisions: first those that were taken,
+    /// then the expected ones.
     pub(crate) legs: Vec<Leg>,
 }
 
@@ -80,11 +79,11 @@ impl ToSchema for Totals {}
 pub(crate) struct Leg {
     /// The aircraft.
     pub(crate) aircraft: String,
-    /// Where it leaves.
+    /// The vertiport of departure.
     pub(crate) from: String,
-    /// Where it flies to; a hold stays where it is.
+    /// The destination; that of a hold is the same vertiport.
     pub(crate) to: String,
-    /// When it was decided, or is expected to be.
+    /// When the decision was taken, or is expected.
     pub(crate) time: Moment,
     /// When it lands.
     pub(crate) arrival: Moment,
@@ -98,33 +97,33 @@ pub(crate) struct Leg {
     pub(crate) is_taken: bool,
 }
 
-/// A day as it might be.
+/// A changed day.
 #[derive(Debug, Clone, Default, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WhatIf {
-    /// Events that might happen now, in their order.
+    /// Events that might happen now, in order.
     #[serde(default)]
     #[schema(max_items = 1_000)]
     pub(crate) events: Vec<Event>,
     /// The policy that would decide; without it, the day's.
     pub(crate) policy: Option<String>,
-    /// Stands (or chargers where they are counted apart) that vertiports would have had since the
-    /// morning.
+    /// Numbers of stands (or of chargers if they are counted separately) of vertiports from the
+    /// morning on.
     #[serde(default)]
     #[schema(value_type = BTreeMap<String, StandCount>)]
     pub(crate) stands: BTreeMap<String, u16>,
-    /// Aircraft that the fleet would have had since the morning.
+    /// Additional aircraft of the fleet from the morning on.
     #[serde(default)]
     pub(crate) aircraft: Vec<MoreAircraft>,
 }
 
-/// A number of stands, or of chargers where they are counted apart.
+/// A number of stands, or of chargers if they are counted separately.
 #[derive(ToSchema)]
 #[schema(maximum = 65_535)]
 #[expect(dead_code, reason = "it stands for a number in the description")]
 pub(crate) struct StandCount(u16);
 
-/// An aircraft that the fleet might have.
+/// An additional aircraft of the fleet.
 #[derive(Debug, Clone, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MoreAircraft {
@@ -137,16 +136,16 @@ pub(crate) struct MoreAircraft {
     at: String,
 }
 
-/// What a change would lead to.
+/// The effect of a change.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct Comparison {
-    /// The outlook as things are, by the day's policy.
+    /// The outlook without the change, by the day's policy.
     pub(crate) as_it_is: Outlook,
-    /// The outlook as they might be.
+    /// The outlook with the change.
     pub(crate) what_if: Outlook,
-    /// How much more the day would earn, dollars.
+    /// The increase of the day's profit, dollars.
     pub(crate) difference_usd: f64,
-    /// What people should look at of the events that might happen.
+    /// Notices about the hypothetical events.
     pub(crate) notices: Vec<String>,
 }
 
@@ -162,9 +161,9 @@ pub(crate) struct NamedPolicy {
 /// How long a policy may take.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Patience<'a> {
-    /// Requested when the client has gone, or the request has timed out.
+    /// Requested when the client has disconnected, or the request has timed out.
     pub(crate) stop: &'a Stop,
-    /// When a faster policy has to take its place.
+    /// When a faster policy must replace it.
     pub(crate) until: Instant,
 }
 
@@ -175,10 +174,10 @@ impl Patience<'_> {
 }
 
 impl Outlook {
-    /// Plays the rest of a day out, with `quick` in place of a policy that takes too long.
+    /// Plays the rest of a day, with `quick` in place of a policy that takes too long.
     ///
     /// # Errors
-    /// Returns an error if a policy cannot play the day, or if the client has gone.
+    /// Returns an error if a policy cannot play the day, or if the client has disconnected.
     pub(crate) fn in_time(
         day: &mut DispatchDay,
         policy: &NamedPolicy,
@@ -189,13 +188,13 @@ impl Outlook {
             return Ok(outlook);
         }
         let outlook = Self::of(day, quick, || patience.stop.is_requested())?;
-        // The client has gone, so this answer is discarded.
+        // The client has disconnected, so this answer is discarded.
         let gone = || Error::Internal { cause: "the client has gone".to_owned() };
         let outlook = outlook.ok_or_else(gone)?;
         Ok(Self { too_late: Some(policy.name.clone()), ..outlook })
     }
 
-    /// Plays the rest of a day out; `None` if it is given up before.
+    /// Plays the rest of a day; `None` if it is interrupted.
     fn of(
         day: &mut DispatchDay,
         policy: &NamedPolicy,
@@ -232,12 +231,12 @@ impl Outlook {
     }
 }
 
-/// The slices of the bound, minutes, for days up to a size: vertiports times vertiports times
-/// aircraft types times hours left. A bound then takes half a second at most; the rest of a larger
-/// day has none.
+/// The slices of the bound, minutes, by the size of the rest of the day: vertiports times
+/// vertiports times aircraft types times hours left. A bound then takes at most half a second;
+/// larger days have none.
 const STEPS: [(usize, u32); 2] = [(1_000, 15), (4_000, 60)];
 
-/// What the whole day can earn at most from now on.
+/// Upper bound on the profit of the whole day from now on.
 fn upper_bound_usd(live: &mut LiveDay) -> Result<Option<f64>, Error> {
     let so_far = live.totals().profit_usd;
     let scenario = live.scenario();
@@ -271,12 +270,12 @@ impl Leg {
 }
 
 impl WhatIf {
-    /// Whether the day has to begin otherwise, and not only to go on otherwise.
+    /// Whether the change concerns the beginning of the day, and not only its rest.
     pub(crate) fn begins_otherwise(&self) -> bool {
         !self.stands.is_empty() || !self.aircraft.is_empty()
     }
 
-    /// The scenario as it might have been.
+    /// The changed scenario.
     ///
     /// # Errors
     /// Returns [`Error::UnknownId`], or an error of the scenario's check.
@@ -302,13 +301,13 @@ impl WhatIf {
         Ok(day.check("what-if")?)
     }
 
-    /// Compares a day as it is with what it might be. `otherwise` is the day with another
-    /// beginning, if it has one. The first policy decides as things are, the second as they might
-    /// be; if either takes too long, the third decides both.
+    /// Compares a day with a changed one. `otherwise` is the day with another beginning, if it has
+    /// one. The first policy decides on the unchanged day, the second on the changed one. If either
+    /// takes too long, the third decides on both.
     ///
     /// # Errors
-    /// Returns an error if an event cannot be taken, if a policy cannot play the day, or if the
-    /// client has gone.
+    /// Returns an error if an event is invalid, if a policy cannot play the day, or if the client
+    /// has disconnected.
     pub(crate) fn compare(
         self,
         day: &mut DispatchDay,
@@ -325,7 +324,7 @@ impl WhatIf {
         let notices = told.map(|(_, text)| text).collect();
         let mut as_it_is = Outlook::in_time(day, ours, quick, patience)?;
         let what_if = Outlook::in_time(&mut changed, theirs, quick, patience)?;
-        // What different policies would make of the two is not what the change would lead to.
+        // With two different policies, the difference would not be the effect of the change.
         if what_if.too_late.is_some() && as_it_is.too_late.is_none() {
             let over = Patience { until: Instant::now(), ..patience };
             as_it_is = Outlook::in_time(day, ours, quick, over)?;

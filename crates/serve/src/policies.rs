@@ -1,5 +1,5 @@
-//! The policies that decide: those that the program has, and weights that were uploaded under other
-//! names.
+//! The policies that decide: those of the program, and uploaded weights with names that users
+//! chose.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -15,18 +15,18 @@ use crate::store::{Kind, Store, StoredPolicy, Uploaded};
 
 /// The number of policies that can be uploaded.
 const MOST: usize = 1_000;
-/// The policies that the program has and that decide on a day that happens.
+/// The policies of the program that can decide on a live day.
 const OURS: [&str; 8] =
     ["gcaps-x", "rolling", "prices", "gcaps-full", "greedy", "gcaps", "mlp", "random"];
 
 /// A policy.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct PolicyInfo {
-    /// The name by which requests ask for it.
+    /// Its name in requests.
     pub(crate) name: String,
-    /// Whether the program has it; the others were uploaded.
+    /// Whether it belongs to the program; the others were uploaded.
     pub(crate) is_shipped: bool,
-    /// What decides by uploaded weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`.
+    /// The kind of uploaded weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`.
     pub(crate) kind: Option<String>,
     /// SHA-256 of an uploaded weight file.
     pub(crate) weights_sha256: Option<String>,
@@ -36,10 +36,10 @@ pub(crate) struct PolicyInfo {
     pub(crate) vertiports: Option<usize>,
 }
 
-/// What a weight file is.
+/// The properties of a weight file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub(crate) struct WeightsInfo {
-    /// What decides by the weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`.
+    /// The kind of the weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`.
     pub(crate) kind: String,
     /// SHA-256 of the file.
     pub(crate) weights_sha256: String,
@@ -172,8 +172,8 @@ impl Policies {
         Ok(policies)
     }
 
-    /// Reads the weights under a name to say what they are, and keeps it for the next time. `None`
-    /// if they are gone.
+    /// Reads the weights under a name to describe them, and stores the description. `None` if they
+    /// are gone.
     async fn described(&self, name: &str, created_ms: i64) -> Result<Option<WeightsInfo>, Error> {
         let Some(model) = self.model(name).await? else { return Ok(None) };
         let info = WeightsInfo::of(&model);
@@ -193,12 +193,12 @@ impl Policies {
         Ok(PolicyInfo::of(name, WeightsInfo::of(&model)))
     }
 
-    /// Keeps weights under a name, which means these weights for good: a reader of the log of a day
-    /// knows what decided.
+    /// Stores weights under a name, which means these weights permanently: the log of a day then
+    /// names the weights that decided.
     ///
     /// # Errors
-    /// Returns an error if the bytes are no weight file, [`Error::BadRequest`] if the name is not
-    /// one of your own or means other weights, and [`Error::TooMuch`].
+    /// Returns an error if the bytes are no weight file, [`Error::BadRequest`] if the name is
+    /// invalid or means other weights, and [`Error::TooMuch`].
     pub(crate) async fn put(
         &self,
         name: &str,
@@ -234,12 +234,12 @@ fn read(weights: &[u8], origin: &str) -> Result<Model, Error> {
     Model::from_bytes(weights, origin).map_err(|error| vertifleet_study::Error::from(error).into())
 }
 
-/// Checks that a name can be one of the user's own. The description has the same as a pattern.
+/// Checks that a name is valid for a user's policy. The description has the same rule as a pattern.
 fn check_name(name: &str) -> Result<(), Error> {
     let plain =
         |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || matches!(c, '.' | '-' | '_');
     let wrong = |rule: &str| Err(Error::BadRequest { rule: rule.to_owned() });
-    // A path of dots alone would lead elsewhere.
+    // A path that consists of dots would lead elsewhere.
     let begins = name.starts_with(|c| plain(c) && c != '.');
     if !begins || name.len() > 40 || !name.chars().all(plain) {
         return wrong(
@@ -279,8 +279,8 @@ mod tests {
             let found = found.expect("it is listed");
             (found.name, found.weights_sha256) == ("ours".to_owned(), put.weights_sha256.clone())
         };
-        // An older program kept no description, and one of an older upload says nothing of this
-        // one.
+        // An older program stored no description, and a description of an older upload does not
+        // apply to this one.
         for spoilt in ["DELETE FROM descriptions", "UPDATE descriptions SET created_ms = 0"] {
             assert_eq!(run(spoilt).await, 1, "putting or listing described them");
             assert!(same(listed().await.expect("the weights are there")));

@@ -9,21 +9,21 @@ use vertifleet_core::Coded;
 
 use crate::error::Error;
 
-/// An error as the service answers it (RFC 9457).
+/// An error in an answer (RFC 9457).
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct Problem {
     /// Names the kind of error: `urn:vertifleet:` and the code.
     #[serde(rename = "type")]
     pub(crate) kind: String,
-    /// The status of HTTP in words.
+    /// The HTTP status in words.
     pub(crate) title: String,
-    /// The status of HTTP.
+    /// The HTTP status.
     pub(crate) status: u16,
-    /// What is wrong here.
+    /// The cause of this error.
     pub(crate) detail: String,
-    /// The stable code, which the error index explains.
+    /// The stable code, which the index of errors explains.
     pub(crate) code: String,
-    /// What to do.
+    /// The remedy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) hint: Option<String>,
 }
@@ -52,7 +52,7 @@ impl IntoResponse for Error {
         }
         let body = serde_json::to_string(&Problem::of(&self)).expect("plain data can be written");
         let kind = [(header::CONTENT_TYPE, "application/problem+json")];
-        // The code is there for the metrics of requests.
+        // For the metrics of requests, which contain the code.
         let mut answer = (status, Extension(self.code()), kind, body).into_response();
         let told = match status {
             StatusCode::UNAUTHORIZED => Some((header::WWW_AUTHENTICATE, "Bearer")),

@@ -1,6 +1,6 @@
-//! Recomputes prices in the background while the service is busy, and with less effort: decisions
-//! keep the old ones until then. While it is not busy, a decision recomputes them itself, so that a
-//! day that is dispatched alone ends as in the simulator, to the last digit.
+//! Recomputes prices in the background while the service is busy, and with less effort: until then,
+//! decisions use the old ones. While it is not busy, a decision recomputes them, so that a day that
+//! is dispatched alone ends as in the simulator, to the last digit.
 
 use std::sync::mpsc;
 use std::thread;
@@ -11,7 +11,7 @@ use vertifleet_sim::{Decision, Simulation};
 
 use crate::clock::LastTime;
 
-/// How long the service counts as busy after a decision has had to wait.
+/// How long the service counts as busy after a decision had to wait.
 const BUSY: Duration = Duration::from_secs(1);
 
 /// A thread that recomputes prices, one day after the other.
@@ -37,14 +37,14 @@ impl Renewals {
         thread::spawn(move || {
             for Renewal { mut memory, day, decision, found } in asked {
                 memory.refresh_briefly(day.view(), &decision);
-                // The policy may have found them itself meanwhile.
+                // The policy may have recomputed them in the meantime.
                 let _ = found.send(memory);
             }
         });
         Self { queue, awaited: LastTime::default() }
     }
 
-    /// This, if the service is busy: a decision waits for others now, or has done so a moment ago.
+    /// This, if the service is busy: a decision is waiting for others, or was a moment ago.
     pub(crate) fn if_busy(&self, is_awaited: bool) -> Option<&Self> {
         if is_awaited {
             self.awaited.is_now();
@@ -58,8 +58,8 @@ impl Renewals {
 pub(crate) struct Renewing(Option<mpsc::Receiver<PriceMemory>>);
 
 impl Renewing {
-    /// Call this before each decision: it takes over prices that have been recomputed, and if the
-    /// service is busy, has old ones recomputed in the background.
+    /// Call this before each decision. It applies prices that were recomputed, and if the service
+    /// is busy, starts to recompute old ones in the background.
     pub(crate) fn before(
         &mut self,
         policy: &mut dyn Policy,
@@ -74,15 +74,15 @@ impl Renewing {
         }
         memory.keep_old(false);
         let Some(renewals) = busy.filter(|_| memory.is_merely_old(day.view(), decision)) else {
-            // The decision finds prices itself if they are due, and what was found before it is of
-            // no use then.
+            // The decision recomputes prices if they are due, so that those computed before it are
+            // of no use.
             self.0 = None;
             return;
         };
         if self.0.is_none() {
             let (found, pending) = mpsc::channel();
             let (memory, day, decision) = (memory.clone(), day.clone(), *decision);
-            // Without the thread, which only a panic ends, the decision finds them.
+            // Without the thread, which only a panic ends, the decision recomputes them.
             if renewals.queue.send(Renewal { memory, day, decision, found }).is_ok() {
                 self.0 = Some(pending);
             }
@@ -106,8 +106,8 @@ mod tests {
         Simulation::new(Arc::new(network.draw(DaySeed::validation(2).expect("a seed"))))
     }
 
-    /// Plays a day and returns its profit. `is_busy` says for each decision whether the service is
-    /// busy; prices that are being recomputed arrive before the tenth decision after that.
+    /// Plays a day and returns its profit. `is_busy` returns for each decision whether the service
+    /// is busy; recomputed prices arrive before the tenth decision after that.
     fn profit_usd(is_busy: impl Fn(u32) -> bool) -> f64 {
         let (renewals, mut renewing) = (Renewals::start(), Renewing::default());
         let (mut policy, mut day) = (BidPricePolicy::default(), day());
@@ -135,7 +135,7 @@ mod tests {
         play(&mut simulated, &mut BidPricePolicy::default(), |_| ()).expect("it is played");
         let simulated_usd = simulated.totals().profit_usd;
         assert_eq!(profit_usd(|_| false).to_bits(), simulated_usd.to_bits());
-        // While it is busy, the day is played all the same, nearly as well.
+        // While it is busy, the day is still played, nearly as well.
         for busy_usd in [profit_usd(|_| true), profit_usd(|decision| decision.is_multiple_of(3))] {
             assert!(busy_usd > 0.98 * simulated_usd, "{busy_usd} of {simulated_usd}");
         }

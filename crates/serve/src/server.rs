@@ -1,4 +1,4 @@
-//! The running server: listens until it is asked to stop.
+//! The running server: listens until it is stopped.
 
 use std::fs::{File, TryLockError};
 use std::net::SocketAddr;
@@ -18,21 +18,21 @@ use crate::service::Service;
 use crate::spans::Spans;
 use crate::store::{Location, Store};
 
-/// How often the request to stop is looked for.
+/// Interval at which the request to stop is checked.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
-/// After a request to stop, requests that are being carried out have this long to end.
+/// After a request to stop, requests in progress have this long to end.
 const SHUTDOWN_TIMEOUT: Duration = Duration::from_secs(10);
 
-/// How the service runs.
+/// The settings of the service.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Where it listens.
+    /// The address to listen on.
     pub listen: SocketAddr,
-    /// Where its data lies.
+    /// The location of its data.
     pub location: Location,
-    /// What keeps others from listening in.
+    /// The protection of connections against eavesdropping.
     pub protection: Protection,
-    /// What it takes at most.
+    /// Its limits.
     pub limits: Limits,
     /// The collector of OpenTelemetry that spans of requests are sent to, for example
     /// `http://127.0.0.1:4318`.
@@ -42,14 +42,14 @@ pub struct Settings {
     pub basemap: Option<String>,
 }
 
-/// What keeps others from listening in on what is said.
+/// The protection of connections against eavesdropping.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Protection {
-    /// Nothing, which will do on this machine alone.
+    /// None, which is permitted on this machine alone.
     None,
-    /// A proxy that speaks TLS stands before the service.
+    /// A proxy in front of the service uses TLS.
     Proxy,
-    /// The service speaks TLS itself.
+    /// The service uses TLS.
     Tls {
         /// The certificate with its chain, a PEM file.
         certificate: PathBuf,
@@ -58,8 +58,8 @@ pub enum Protection {
     },
 }
 
-/// Runs the service until it is asked to stop. `ready` is called with the address once it listens.
-/// Requests that are being carried out are finished first.
+/// Runs the service until it is stopped. `ready` is called with the address once it listens.
+/// Requests in progress are finished first.
 ///
 /// # Errors
 /// Returns [`Error::CannotListen`] if the address cannot be used, [`Error::Unprotected`] if others
@@ -83,7 +83,7 @@ pub fn serve(
         };
         let store = Store::open(&settings.location).await?;
         let closing = store.clone();
-        // Held until the service stops. The operating system lets go of it even if the service is
+        // Held until the service stops. The operating system releases it even if the service is
         // killed.
         let _lock = lock(&settings.location)?;
         let mut service = Service::new(store, settings.limits).await?;
@@ -111,12 +111,12 @@ pub fn serve(
                 tokio::time::sleep(SHUTDOWN_TIMEOUT).await;
             } => {}
         }
-        // No request may be answered any more, and what waits to be stored has been or never will
+        // No more requests may be answered, and each waiting write has been stored or never will
         // be.
         let _ = tokio::time::timeout(SHUTDOWN_TIMEOUT, closing.close()).await;
         Ok(())
     });
-    // A policy that still thinks is not waited for.
+    // Do not wait for a policy that is still being evaluated.
     runtime.shutdown_timeout(POLL_INTERVAL);
     if let Some(spans) = spans {
         spans.flush();
@@ -124,7 +124,7 @@ pub fn serve(
     outcome
 }
 
-/// Takes the folder of the data for this service alone.
+/// Locks the folder of the data for this service.
 fn lock(location: &Location) -> Result<Option<File>, Error> {
     let Location::Folder(folder) = location else { return Ok(None) };
     let failed = |cause| Error::Store { cause: format!("{}: {cause}", folder.display()) };
@@ -136,10 +136,9 @@ fn lock(location: &Location) -> Result<Option<File>, Error> {
     }
 }
 
-/// Refuses an address that others can reach, unless what they say is encrypted and tokens tell who
-/// they are.
+/// Refuses an address that others can reach, unless connections are encrypted and there are tokens.
 async fn check_protection(settings: &Settings, service: &Service) -> Result<(), Error> {
-    // A proxy lets the whole world in, wherever it finds the service.
+    // A proxy admits the whole world, even if the service listens locally.
     if settings.listen.ip().is_loopback() && settings.protection != Protection::Proxy {
         return Ok(());
     }
@@ -154,7 +153,7 @@ async fn check_protection(settings: &Settings, service: &Service) -> Result<(), 
     Ok(())
 }
 
-/// Follows what other services do to the same days until this one stops.
+/// Follows the changes of other services to the same days until this one stops.
 async fn follow_others(service: Arc<Service>) {
     let mut stopping = service.stopping.subscribe();
     tokio::select! {
@@ -163,7 +162,7 @@ async fn follow_others(service: Arc<Service>) {
     }
 }
 
-/// Passes the request to stop on to everything that waits.
+/// Passes the request to stop on to all waiting tasks.
 async fn pass_on(stop: Stop, stopping: watch::Sender<bool>) {
     while !stop.is_requested() {
         tokio::time::sleep(POLL_INTERVAL).await;

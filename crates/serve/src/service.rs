@@ -1,5 +1,4 @@
-//! What all requests share: the days, the keys of requests that are being carried out, and the
-//! settings.
+//! The common state of all requests: the days, the keys of requests in progress, and the settings.
 
 use std::sync::Arc;
 
@@ -17,7 +16,7 @@ use crate::store::Store;
 use crate::studies::Studies;
 use crate::turns::Turns;
 
-/// Large bodies that are read at once.
+/// Largest number of large bodies that are read at once.
 const UPLOADS: usize = 4;
 /// The running service.
 pub(crate) struct Service {
@@ -25,11 +24,11 @@ pub(crate) struct Service {
     pub(crate) days: Days,
     /// The policies that decide.
     pub(crate) policies: Policies,
-    /// Who may do what.
+    /// Checks the rights of requests.
     pub(crate) access: Access,
     /// Whether the service is about to stop, so that streams end.
     pub(crate) stopping: watch::Sender<bool>,
-    /// What it takes at most.
+    /// Its limits.
     pub(crate) limits: Limits,
     /// Turns for large bodies, which take memory while they are read.
     pub(crate) uploads: Semaphore,
@@ -37,7 +36,7 @@ pub(crate) struct Service {
     pub(crate) spans: Option<Arc<Spans>>,
     /// The keys of requests.
     pub(crate) keys: Arc<Keys>,
-    /// What is played in the background.
+    /// The studies, which run in the background.
     pub(crate) studies: Studies,
     /// Turns for computations.
     pub(crate) turns: AllTurns,
@@ -45,8 +44,8 @@ pub(crate) struct Service {
     pub(crate) renewals: Arc<Renewals>,
 }
 
-/// Turns for computations, of each kind as many as there are cores: more at once would only make
-/// all of them late.
+/// Turns for computations. Each kind has one turn for each core: more would only make all of them
+/// late.
 #[derive(Debug)]
 pub(crate) struct AllTurns {
     /// For outlooks and what-ifs, which take long.
@@ -58,7 +57,7 @@ pub(crate) struct AllTurns {
     /// For the first decision of a policy on a day, which searches for prices, so that later ones
     /// do not wait for it.
     pub(crate) first_decisions: Turns,
-    /// For the policy that answers when others are late, so that it never waits for them.
+    /// For the policy that replaces late ones, so that it never waits for them.
     pub(crate) quick_decisions: Turns,
 }
 

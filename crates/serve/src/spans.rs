@@ -1,10 +1,9 @@
-//! Spans of requests for OpenTelemetry: what was asked, what came of it and how long it took, sent
-//! to a collector.
+//! Spans of requests for OpenTelemetry: path, outcome and duration, sent to a collector.
 //!
-//! A span says the method, the path as it is described, and the status. Of what a client wrote it
-//! has the number of the trace that the request belongs to (`traceparent`, W3C) and nothing else:
-//! no ids, no tokens, no bodies. A thread of the library sends spans in batches, so a collector
-//! that has gone holds up no request; spans that are not taken are dropped.
+//! A span contains the method, the path in the description, and the status. Of the client's data it
+//! contains only the number of the trace that the request belongs to (`traceparent`, W3C): no ids,
+//! no tokens, no bodies. A thread of the library sends spans in batches, so an unreachable
+//! collector delays no request; spans that it does not accept are dropped.
 
 use std::env;
 use std::future::{Future, ready};
@@ -28,17 +27,17 @@ use ureq::Agent;
 
 use crate::error::Error;
 
-/// What the service is called where it is not told otherwise.
+/// The default name of the service in spans.
 const NAME: &str = "vertifleet";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
-/// How long the collector may take for a batch.
+/// Time limit of the collector for a batch.
 const EXPORT_TIMEOUT: Duration = Duration::from_secs(10);
-/// How long the collector may take for the last spans when the service stops.
+/// Time limit of the collector for the last spans when the service stops.
 const LAST_PATIENCE: Duration = Duration::from_secs(3);
-/// The longest answer of a collector that is read.
+/// Longest answer of a collector that is read.
 const LONGEST_ANSWER: u64 = 64 << 10;
 
-/// Makes spans, and has them sent.
+/// Creates spans and sends them.
 #[derive(Debug)]
 pub(crate) struct Spans {
     provider: SdkTracerProvider,
@@ -46,18 +45,18 @@ pub(crate) struct Spans {
     callers: TraceContextPropagator,
 }
 
-/// The span of a request that is being carried out. It ends when it is dropped, at the latest.
+/// The span of a request in progress. It ends when it is dropped, at the latest.
 #[derive(Debug)]
 pub(crate) struct RequestSpan(Span);
 
 impl Spans {
-    /// Spans that are sent to the collector at an address such as `http://127.0.0.1:4318`. What the
-    /// environment says of headers, of the name of the service and of sampling holds
+    /// Spans that are sent to the collector at an address such as `http://127.0.0.1:4318`. The
+    /// variables of OpenTelemetry for headers, the name of the service and sampling apply
     /// (`OTEL_EXPORTER_OTLP_HEADERS` and so on).
     ///
     /// # Errors
-    /// Returns [`Error::BadCollector`] if the address is none of HTTP, or if the environment asks
-    /// for what is not there.
+    /// Returns [`Error::BadCollector`] if the address is not an HTTP address, or if a variable
+    /// requires a feature that is not available.
     pub(crate) fn to(collector: &str) -> Result<Self, Error> {
         let bad = |rule: String| Error::BadCollector { address: collector.to_owned(), rule };
         let address = collector.trim_end_matches('/');
@@ -79,8 +78,8 @@ impl Spans {
         Ok(Self { provider, tracer, callers: TraceContextPropagator::new() })
     }
 
-    /// Begins the span of a request, within the trace that its caller names. `path` is the path as
-    /// it is described, and `None` if there is none such.
+    /// Begins the span of a request, within the trace that its caller names. `path` is the path in
+    /// the description, or `None` if it is not there.
     pub(crate) fn begin(
         &self,
         method: &str,
@@ -95,9 +94,9 @@ impl Spans {
         RequestSpan(self.tracer.build_with_context(span, &caller))
     }
 
-    /// Sends what has not been sent. Spans that end later are lost.
+    /// Sends the spans that have not been sent. Spans that end later are lost.
     pub(crate) fn flush(&self) {
-        // The collector has been warned of if it does not answer.
+        // `send_bytes` has warned already if the collector does not answer.
         let _ = self.provider.shutdown_with_timeout(LAST_PATIENCE);
     }
 }
@@ -108,21 +107,21 @@ impl RequestSpan {
         self.0.span_context().trace_id()
     }
 
-    /// Ends the span with the status of the answer and the code of what went wrong.
+    /// Ends the span with the status of the answer and the code of the error.
     pub(crate) fn end(mut self, status: StatusCode, code: Option<String>) {
         let number = i64::from(status.as_u16());
         self.0.set_attribute(KeyValue::new("http.response.status_code", number));
         if let Some(code) = code {
             self.0.set_attribute(KeyValue::new("error.type", code));
         }
-        // What the client did wrong is no failure of the service.
+        // An error of the client is no failure of the service.
         if status.is_server_error() {
             self.0.set_status(Status::error(""));
         }
     }
 }
 
-/// What sends the spans: the program and its version, and what the environment adds.
+/// The sender of spans: the program and its version, and the attributes of the environment.
 fn described() -> Resource {
     let ours = [KeyValue::new("service.name", NAME), KeyValue::new("service.version", VERSION)];
     let resource = Resource::builder_empty()
@@ -135,8 +134,8 @@ fn described() -> Resource {
     }
 }
 
-/// The trace that a request belongs to, from its headers. `tracestate` next to it may be long, is
-/// not sent on, and stays out.
+/// The trace that a request belongs to, from its headers. `tracestate`, which may be long, is not
+/// sent on and is left out.
 struct Caller<'a>(&'a HeaderMap);
 
 impl Extractor for Caller<'_> {
@@ -150,8 +149,8 @@ impl Extractor for Caller<'_> {
     }
 }
 
-/// Sends batches to the collector, on the thread of the library that makes them. Says once when
-/// they are not taken, and once when they are again.
+/// Sends batches to the collector, on the library's thread. Logs once when they are refused, and
+/// once when they are accepted again.
 #[derive(Debug)]
 struct Collector {
     agent: Agent,

@@ -1,7 +1,7 @@
 //! The store: days and their events in `SQLite` or `PostgreSQL`, through one set of statements.
 //!
-//! Events are rows that are only ever added. Each has a sum over itself and the row before, so that
-//! a row that is missing, changed or torn is found when a day is read.
+//! Rows of events are only ever added. Each has a checksum over itself and the row before, so that
+//! the service detects a row that is missing, changed or torn when it reads the day.
 
 mod append;
 mod events;
@@ -34,10 +34,10 @@ pub(crate) const DATABASE: &str = "vertifleet.db";
 /// The version of the tables. A store of a newer version is refused.
 const VERSION: &str = "5";
 
-/// Where the data lies.
+/// The location of the data.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Location {
-    /// An `SQLite` database in a folder, which is made if it is not there.
+    /// An `SQLite` database in a folder, which is created if it does not exist.
     Folder(PathBuf),
     /// A `PostgreSQL` database.
     Postgres(String),
@@ -62,7 +62,7 @@ pub(crate) struct StoredDay {
     pub(crate) created_ms: i64,
     /// Whether it is closed to writes.
     pub(crate) archived: bool,
-    /// The policy that decides when none is asked for.
+    /// The default policy of its decisions.
     pub(crate) policy: String,
     /// Its date (`2026-11-23`), or empty.
     pub(crate) date: String,
@@ -70,22 +70,22 @@ pub(crate) struct StoredDay {
     pub(crate) time_zone: String,
 }
 
-/// An answer that is given again when a request comes again with its key.
+/// A stored answer, for a request that is repeated with its key.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct StoredAnswer {
     /// The key.
     pub(crate) key: String,
-    /// The request, shortened to a sum.
+    /// The checksum of the request.
     pub(crate) request: String,
     /// The answer as JSON.
     pub(crate) answer: String,
 }
 
-/// In the place of the sum of a day that an earlier version of the program made.
+/// Stands for the checksum of a day that an earlier version of the program made.
 const NO_SUM: i64 = -1;
 
 impl StoredDay {
-    /// The sum over all of a day that never changes.
+    /// The checksum over the parts of a day that never change.
     fn sum(&self, scenario: &str) -> i64 {
         let Self { id, name, created_ms, archived: _, policy, date, time_zone } = self;
         let sum = crc32c::crc32c(&created_ms.to_le_bytes());
@@ -159,7 +159,7 @@ impl Store {
     /// A day and its scenario.
     ///
     /// # Errors
-    /// Returns [`Error::BadData`] if they are not as they were stored.
+    /// Returns [`Error::BadData`] if they have changed since they were stored.
     pub(crate) async fn day(&self, id: &str) -> Result<Option<(StoredDay, String)>, Error> {
         let select = query(
             "SELECT id, name, created_ms, archived, policy, date, time_zone, scenario, sum FROM days
@@ -183,7 +183,7 @@ impl Store {
         self.in_time(count).await.map(as_u64)
     }
 
-    /// Closes a day to writes or opens it again, if it is at the event that is expected.
+    /// Archives a day or reopens it, if it is at the expected event.
     ///
     /// # Errors
     /// Returns [`Error::NotFound`] if there is no such day, and [`Error::Moved`] if it is at
@@ -206,7 +206,7 @@ impl Store {
         self.in_time(change).await
     }
 
-    /// Removes a day with its events, if it is at the event that is expected.
+    /// Removes a day with its events, if it is at the expected event.
     ///
     /// # Errors
     /// Returns [`Error::NotFound`] if there is no such day, and [`Error::Moved`] if it is at

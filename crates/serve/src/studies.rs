@@ -1,9 +1,9 @@
-//! Studies: comparisons of policies on many days of a network, played in the background while days
-//! are dispatched.
+//! Studies: comparisons of policies on many days of a network, which run in the background while
+//! days are dispatched.
 //!
-//! One study plays at a time, on half of the cores at most and behind everything else, so that
-//! decisions stay quick. Studies live in memory: whatever one says follows from what it was asked
-//! for, so it can be had again after the service stopped.
+//! One study runs at a time, on at most half of the cores and with the lowest priority, so that
+//! decisions stay quick. Studies live in memory: the result of a study follows from its request, so
+//! it can be computed again after the service has stopped.
 
 mod asked;
 mod progress;
@@ -30,15 +30,15 @@ use crate::error::Error;
 use crate::keys::Idempotency;
 use crate::problem::Problem;
 
-/// Studies that wait for their turn.
+/// Largest number of studies that wait.
 const MOST_WAITING: usize = 8;
-/// Studies that have ended and are kept; the oldest make room for new ones.
+/// Largest number of finished studies; the oldest make room for new ones.
 const MOST_ENDED: usize = 20;
-/// The least claim to a core that Linux knows.
+/// The lowest priority of threads on Linux.
 #[cfg(target_os = "linux")]
 const LAST_IN_TURN: i32 = 19;
 
-/// A study: what it was asked for, how far it is, and what came out.
+/// A study: its request, its progress and its result.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct StudyInfo {
     /// Its id.
@@ -55,33 +55,33 @@ pub(crate) struct StudyInfo {
     days: u32,
     /// The seed of its first day, or its number among the validation days.
     seed: u64,
-    /// Whose days they are.
+    /// The purpose of its days.
     split: Split,
-    /// Whether every day gets an upper bound.
+    /// Whether an upper bound is proven for every day.
     bounds: bool,
-    /// The command that plays the same study without the service.
+    /// The command that runs the same study without the service.
     command: String,
-    /// When it was asked for, milliseconds of the Unix clock.
+    /// When it was requested, milliseconds of the Unix clock.
     created_ms: i64,
-    /// What is allowed but hardly meant.
+    /// Settings that are allowed but probably not intended.
     warnings: Vec<String>,
-    /// How far it is.
+    /// Its state.
     state: StudyState,
-    /// How far it has come, while it plays.
+    /// Its progress, while it plays.
     #[serde(skip_serializing_if = "Option::is_none")]
     progress: Option<StudyProgress>,
     /// How long it played, seconds, once it has finished.
     #[serde(skip_serializing_if = "Option::is_none")]
     took_s: Option<f64>,
-    /// Why it failed.
+    /// The reason why it failed.
     #[serde(skip_serializing_if = "Option::is_none")]
     problem: Option<Problem>,
-    /// What came out, where one study that has finished is asked for.
+    /// The result, if a finished study is read.
     #[serde(skip_serializing_if = "Option::is_none")]
     result: Option<StudyResult>,
 }
 
-/// How far a study is.
+/// The state of a study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum StudyState {
@@ -112,7 +112,7 @@ struct List {
 /// A study.
 #[derive(Debug)]
 struct Study {
-    /// What never changes, with a state that is not looked at.
+    /// The constant part; its state is not used.
     info: StudyInfo,
     /// The request that made it, if it has a key.
     key: Option<Idempotency>,
@@ -120,7 +120,7 @@ struct Study {
     stage: Mutex<Stage>,
 }
 
-/// How far a study is, with what that stage needs.
+/// The state of a study, with its data.
 #[derive(Debug)]
 enum Stage {
     Waiting(Box<Asked>),
@@ -130,7 +130,7 @@ enum Stage {
 }
 
 impl Studies {
-    /// Puts a study with a new id behind those that wait.
+    /// Adds a study with a new id to those that wait.
     ///
     /// # Errors
     /// Returns [`Error::TooMuch`] if too many wait.
@@ -157,7 +157,7 @@ impl Studies {
         Ok(info)
     }
 
-    /// The study that a request with a key has made.
+    /// The study that an earlier request with the same key has made.
     ///
     /// # Errors
     /// Returns [`Error::KeyReused`] if another request has made one with this key.
@@ -215,7 +215,7 @@ impl Studies {
         }
     }
 
-    /// Stops a study, if it has not ended, and forgets it.
+    /// Stops a study, if it has not ended, and removes it.
     ///
     /// # Errors
     /// Returns [`Error::NotFound`] if there is no such study.
@@ -233,7 +233,7 @@ impl Studies {
 }
 
 impl Drop for Studies {
-    /// The thread that plays them ends soon after the service has.
+    /// The thread that runs them ends soon after the service has.
     fn drop(&mut self) {
         for study in lock(&self.list).studies.drain(..) {
             study.stop.request();
@@ -299,7 +299,7 @@ impl Study {
         info
     }
 
-    /// Begins, if it waits: says what was asked for, and that it plays.
+    /// Begins, if it waits: returns the request, and changes the state.
     fn begin(&self) -> Option<Box<Asked>> {
         let mut stage = lock(&self.stage);
         let Stage::Waiting(asked) = &mut *stage else { return None };
@@ -311,7 +311,7 @@ impl Study {
         }
     }
 
-    /// Plays to the end, whatever it is.
+    /// Runs to the end.
     fn play(self: &Arc<Self>, asked: &Asked) {
         let begun = Instant::now();
         let command = self.info.command.clone();
@@ -335,7 +335,7 @@ impl Study {
     }
 }
 
-/// Plays all studies that wait, one after the other.
+/// Runs all waiting studies, one after the other.
 fn play_all(list: &Mutex<List>) {
     let next = || {
         let mut list = lock(list);
@@ -348,14 +348,14 @@ fn play_all(list: &Mutex<List>) {
     }
 }
 
-/// The threads of a study: half of the cores, behind all other work.
+/// The threads of a study: half of the cores, with the lowest priority.
 fn threads() -> Result<ThreadPool, ThreadPoolBuildError> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = ThreadPoolBuilder::new().num_threads((cores / 2).max(1));
-    // On Linux this is about the thread that asks; elsewhere it would hold back the whole service.
+    // On Linux this affects the calling thread; elsewhere it would slow the whole service down.
     #[cfg(target_os = "linux")]
     let pool = pool.start_handler(|_| {
-        // A thread that may not step back plays all the same.
+        // A thread whose priority cannot be lowered still runs.
         let _ = rustix::process::setpriority_process(None, LAST_IN_TURN);
     });
     pool.build()

@@ -1,7 +1,7 @@
-//! An event as it was taken: a row of the log, which is also what the API answers.
+//! A stored event: a row of the log, which the API also returns.
 //!
-//! The row contains the event as the JSON text that was stored, because the sum over the log is one
-//! over texts. Answers quote the text; only times by a calendar have it read and written again.
+//! The row contains the event as JSON text, because the checksum over the log covers texts. Answers
+//! quote the text; only times with a calendar require it to be parsed and written again.
 
 use serde::ser::{self, SerializeStruct as _};
 use serde::{Serialize, Serializer};
@@ -12,23 +12,23 @@ use crate::event::Event;
 use crate::mark::EventMark;
 use crate::moment::is_by_calendar;
 
-/// An event as it was taken.
+/// A stored event.
 #[derive(Debug, Clone, PartialEq, Eq, ToSchema)]
 pub(crate) struct TakenEvent {
     /// Its number.
     pub(crate) seq: u64,
-    /// Its number with a sum over the log up to it. Sent as `Last-Event-ID`, it makes sure that a
-    /// stream goes on in the same log.
+    /// Its number with a checksum over the log up to it. Sent as `Last-Event-ID`, it ensures that a
+    /// stream continues in the same log.
     #[schema(rename = "mark", value_type = String, pattern = "^[0-9]{1,19}-[0-9a-f]{8}$")]
     pub(crate) chain: u32,
-    /// When it was taken, milliseconds of the Unix clock.
+    /// When the service stored it, milliseconds of the Unix clock.
     pub(crate) at_ms: i64,
-    /// Who sent it.
+    /// The name of the sender's token.
     pub(crate) actor: String,
     /// The event.
     #[schema(rename = "event", value_type = Event)]
     pub(crate) body: String,
-    /// What people should look at.
+    /// Notices for people.
     #[schema(value_type = Vec<String>)]
     pub(crate) notices: String,
 }
@@ -39,7 +39,7 @@ impl TakenEvent {
         EventMark { seq: self.seq, chain: Some(self.chain) }
     }
 
-    /// The sum of an event after one with the sum `before`.
+    /// The checksum of an event after one with the checksum `before`.
     pub(crate) fn chain_after(&self, before: u32) -> u32 {
         let mut sum = crc32c::crc32c_append(before, &self.seq.to_le_bytes());
         sum = crc32c::crc32c_append(sum, &self.at_ms.to_le_bytes());

@@ -1,4 +1,4 @@
-//! Tokens: what each permits, and how its text, of which only a hash is stored, is recognised.
+//! Tokens: their roles, and how their text is checked, of which only a hash is stored.
 
 use serde::Serialize;
 use sha2::{Digest as _, Sha256};
@@ -10,7 +10,7 @@ use crate::error::Error;
 /// Every token begins like this, so that secret scanners recognise it.
 const PREFIX: &str = "vf_";
 
-/// What a token permits. Each role permits what those before it do.
+/// The role of a token. Each role includes the ones before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Role {
@@ -46,9 +46,9 @@ impl Role {
 pub struct StoredToken {
     /// Its id, which is the first part of the token.
     pub id: String,
-    /// What it is called in the record of who did what.
+    /// Its name in the audit.
     pub name: String,
-    /// What it permits.
+    /// Its role.
     pub role: Role,
     /// SHA-256 of its secret, in hexadecimal digits.
     #[serde(skip)]
@@ -60,7 +60,7 @@ pub struct StoredToken {
 }
 
 impl StoredToken {
-    /// Draws a token, and its text, which cannot be had again.
+    /// Draws a token, and its text, which cannot be shown again.
     ///
     /// # Errors
     /// Returns [`Error::Internal`] if the operating system has no random numbers.
@@ -71,7 +71,7 @@ impl StoredToken {
         Ok((Self { id, name, role, hash, created_ms, revoked_ms: 0 }, text))
     }
 
-    /// Checks that it permits what needs a role.
+    /// Checks that its role includes a role.
     pub(crate) fn check(&self, needed: Role) -> Result<(), Error> {
         if self.role < needed {
             return Err(Error::NotPermitted { role: self.role.name(), needed: needed.name() });
@@ -80,7 +80,7 @@ impl StoredToken {
     }
 }
 
-/// The token in force that a text is.
+/// The valid token whose text this is.
 pub(crate) fn matching<'a>(tokens: &'a [StoredToken], given: &str) -> Option<&'a StoredToken> {
     let (id, secret) = given.strip_prefix(PREFIX)?.split_once('_')?;
     let token = tokens.iter().find(|token| token.id == id && token.revoked_ms == 0)?;

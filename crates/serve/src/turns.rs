@@ -1,6 +1,6 @@
-//! Turns for computations that take long. A few run at once, and those that wait come on fairly:
-//! first the token with the fewest that run, and of equal ones the request that came first. So a
-//! token that asks for much waits for itself, and not others for it.
+//! Turns for computations that take long. Only a few run at once. The next turn goes to the token
+//! with the fewest running computations, and among equal ones to the earliest request. So a token
+//! with many requests delays itself and not others.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -21,7 +21,7 @@ struct State {
     free: usize,
     /// The number of turns that each token has.
     running: HashMap<String, usize>,
-    /// In the order in which they came.
+    /// In the order of arrival.
     waiting: Vec<Waiting>,
 }
 
@@ -51,7 +51,8 @@ impl Turns {
     }
 
     /// Runs work on a blocking thread when it is the token's turn. The work is asked to stop when
-    /// the caller drops this future, because the client has gone or the request has timed out.
+    /// the caller drops this future, because the client has disconnected or the request has timed
+    /// out.
     pub(crate) async fn work<T: Send + 'static>(
         &self,
         actor: &str,
@@ -60,7 +61,7 @@ impl Turns {
         let turn = self.take(actor).await;
         let stop = Stop::default();
         let waits = StopWhenDropped(stop.clone());
-        // The turn lasts as long as the work, also after the future is dropped.
+        // The turn lasts as long as the work, even after the future is dropped.
         let work = move || {
             let outcome = work(&stop);
             drop(turn);
@@ -73,7 +74,7 @@ impl Turns {
     }
 
     /// Runs a future that computes for long on a blocking thread when it is the token's turn, so
-    /// that other requests go on. It ends when the caller drops this future.
+    /// that other requests continue. It ends when the caller drops this future.
     pub(crate) async fn run<T: Send + 'static>(
         &self,
         actor: &str,
@@ -118,7 +119,7 @@ impl Turns {
 }
 
 impl State {
-    /// Removes the request that is next, of those whose caller still waits.
+    /// Removes the next request, among those whose caller still waits.
     fn next(&mut self) -> Option<Waiting> {
         self.waiting.retain(|waiting| !waiting.turn.is_closed());
         let running = |waiting: &Waiting| self.running.get(&waiting.actor).copied();
@@ -189,8 +190,7 @@ mod tests {
     }
 
     impl Request {
-        /// The number of things that it may do next: ask; take the turn if it was woken, or go
-        /// away; end.
+        /// The number of possible next steps: ask; take the turn if it was woken, or go away; end.
         fn ways_on(&self) -> usize {
             match self {
                 Self::Waits(_, woken) => 1 + usize::from(woken.0.load(Ordering::Relaxed)),

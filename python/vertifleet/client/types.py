@@ -1,4 +1,4 @@
-"""What the dispatch service is asked and what it answers, as types for checkers and editors.
+"""The requests and answers of the dispatch service, as types for checkers and editors.
 
 Written by python/tools/client_types.py from the description of the API (docs/src/reference/openapi.json): do
 not edit. At run time all of these are plain dicts, so members that a newer service adds do no harm.
@@ -11,33 +11,33 @@ from typing_extensions import NotRequired, TypedDict
 
 
 class Problem(TypedDict):
-    """An error as the service answers it (RFC 9457)."""
+    """An error in an answer (RFC 9457)."""
 
     type: str
     """Names the kind of error: `urn:vertifleet:` and the code."""
     title: str
-    """The status of HTTP in words."""
+    """The HTTP status in words."""
     status: int
-    """The status of HTTP."""
+    """The HTTP status."""
     detail: str
-    """What is wrong here."""
+    """The cause of this error."""
     code: str
-    """The stable code, which the error index explains."""
+    """The stable code, which the index of errors explains."""
     hint: NotRequired[str | None]
-    """What to do."""
+    """The remedy."""
 
 
 Role: TypeAlias = Literal["read", "dispatch", "admin"]
-"""What a token permits. Each role permits what those before it do."""
+"""The role of a token. Each role includes the ones before it."""
 
 
 class ServiceInfo(TypedDict):
-    """What the service is, and what the sender may do."""
+    """The properties of the service, and the rights of the sender."""
 
     version: str
     """The version of the program."""
     role: Role
-    """What it permits: `read`, `dispatch` or `admin`."""
+    """The role of the token: `read`, `dispatch` or `admin`."""
     policy: str
     """The policy that decides on a day if none is named."""
     token: NotRequired[str | None]
@@ -51,16 +51,16 @@ offset, if the day has a date.
 
 
 class DayProgress(TypedDict):
-    """How far a day is."""
+    """The progress of a day."""
 
     now: Moment
-    """The latest time that it has heard of."""
+    """The latest time that was reported."""
     is_over: bool
     """Whether nothing is left to decide and every aircraft is on the ground."""
     waiting: int
     """Aircraft that wait for a decision."""
     profit_usd: float
-    """Profit of the flights that have been sent off, less what the fleet costs all day; dollars."""
+    """Profit of the flights that have been dispatched, less the fixed costs of the fleet; dollars."""
 
 
 class DayInfo(TypedDict):
@@ -69,19 +69,19 @@ class DayInfo(TypedDict):
     id: str
     """Its id."""
     name: str
-    """What people call it."""
+    """Its display name."""
     created_ms: int
     """When it was made, milliseconds of the Unix clock."""
     archived: bool
     """Whether it is closed to writes."""
     policy: str
-    """The policy that decides when none is asked for."""
+    """The default policy of its decisions."""
     date: NotRequired[str | None]
     """Its date, if it has one."""
     progress: NotRequired[DayProgress | None]
-    """How far it is, for days that are listed with their progress and are not archived."""
+    """Its progress, for days that are listed with it and are not archived."""
     seq: NotRequired[int | None]
-    """The number of its events, for a day that was asked for by its id."""
+    """The number of its events, for a request that names the day."""
     time_zone: NotRequired[str | None]
     """The time zone of its clock, if it has a date."""
 
@@ -100,9 +100,9 @@ ForecastRow = TypedDict(
     {
         # A time within the period, without a date.
         "period": Moment,
-        # Where they leave.
+        # The vertiport of departure.
         "from": str,
-        # Where they fly to.
+        # The vertiport of destination.
         "to": str,
         # Their number.
         "passengers": int,
@@ -112,28 +112,28 @@ ForecastRow = TypedDict(
 
 
 class NewDay(TypedDict):
-    """A day to be made: from a network, or from a scenario."""
+    """A day to make, from a network or from a scenario."""
 
     aircraft: NotRequired[Mapping[str, str]]
-    """Where aircraft stand in the morning: the vertiport of each by the id of the aircraft. The others stand
-    where the network or the scenario has them.
+    """The vertiports of aircraft in the morning, by the ids of the aircraft. The others stand where the
+    network or the scenario places them.
     """
     date: NotRequired[str | None]
     """Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO 8601."""
     forecast: NotRequired[list[ForecastRow] | None]
-    """The passengers who are expected, in place of those of the network or the scenario. A pair without a row
-    has no passengers.
+    """The expected passengers, in place of those of the network or the scenario. A pair without a row has no
+    passengers.
     """
     name: NotRequired[str | None]
-    """What people call the day; without it, the name of its scenario, or of its network with the date."""
+    """The display name of the day; without it, the name of its scenario, or of its network with the date."""
     network: NotRequired[str | None]
     """A network that the program ships, or that was uploaded."""
     policy: NotRequired[str | None]
-    """The policy that decides when none is asked for."""
+    """The default policy of its decisions."""
     scenario: NotRequired[Mapping[str, object] | None]
-    """A whole scenario, as a scenario file has it."""
+    """A whole scenario, in the format of scenario files."""
     seed: NotRequired[int | None]
-    """The seed with which the day is drawn from the network: its forecast and where aircraft stand in the
+    """The seed that draws the day from the network: its forecast, and the vertiports of aircraft in the
     morning, unless they are given. 1 if it is absent.
     """
     time_zone: NotRequired[str | None]
@@ -141,14 +141,14 @@ class NewDay(TypedDict):
 
 
 Times: TypeAlias = Literal["clock", "iso"]
-"""How times are written in an answer."""
+"""The format of times in an answer."""
 
 RuleName: TypeAlias = Literal["out_of_range", "no_corridor", "closed", "no_stand_free"]
 """A rule that forbids a flight."""
 
 
 class Impossible(TypedDict):
-    """Why an alternative is not possible."""
+    """The reason why an alternative is not possible."""
 
     rule: RuleName
     """The rule."""
@@ -157,7 +157,7 @@ class Impossible(TypedDict):
 
 
 class Alternative(TypedDict):
-    """What flying to a vertiport would bring."""
+    """The result of flying to a vertiport."""
 
     to: str
     """The vertiport; the aircraft's own means hold."""
@@ -170,32 +170,32 @@ class Alternative(TypedDict):
     ready: Moment
     """When it would be ready again."""
     stands: int
-    """Stands there, or chargers where they are counted apart."""
+    """Stands there, or chargers if they are counted separately."""
     stands_taken: int
-    """Aircraft that take them, standing there or on their way."""
+    """Aircraft that occupy them, standing there or on their way."""
     impossible: NotRequired[Impossible | None]
-    """Why it is not possible; absent if it is."""
+    """The reason why it is not possible; absent if it is."""
     passenger_price_usd: NotRequired[float | None]
     """The price of carrying one passenger there now rather than later, dollars."""
     stand_price_usd: NotRequired[float | None]
     """The price of a stand there until the aircraft is ready, dollars."""
     value: NotRequired[float | None]
-    """What the policy compares its choices by: dollars for policies that price the rest of the day or roll it
-    out, dollars an hour for `greedy`. Absent if the policy did not consider it.
+    """The value that the policy compares its choices by: dollars for policies that price the rest of the day
+    or roll it out, dollars an hour for `greedy`. Absent if the policy did not consider this choice.
     """
     worth_usd: NotRequired[float | None]
-    """Worth at the day's bid prices, dollars: the flight's profit and what being ready there afterwards is
-    worth, less the prices of its passengers and its stand. Absent if the policy has no prices.
+    """Worth at the day's bid prices, dollars: the flight's profit and the worth of being ready there, less
+    the prices of its passengers and its stand. Absent if the policy has no prices.
     """
 
 
 class Proposal(TypedDict):
-    """What a policy proposes for an aircraft."""
+    """A policy's proposal for an aircraft."""
 
     aircraft: str
     """The aircraft."""
     at: str
-    """Where it stands."""
+    """The vertiport where it stands."""
     time: Moment
     """The time of the decision."""
     seq: int
@@ -207,11 +207,11 @@ class Proposal(TypedDict):
     took_us: int
     """How long the decision took, microseconds."""
     alternatives: list[Alternative]
-    """Every vertiport, in the order of the day: what flying there would bring, and why it is not possible
-    where it is not.
+    """Every vertiport, in the order of the day: the result of flying there, or the reason why that is not
+    possible.
     """
     too_late: NotRequired[str | None]
-    """The policy that was asked and was not ready in time, if another decided for it."""
+    """The requested policy, if it was not ready in time and another decided for it."""
     weights_sha256: NotRequired[str | None]
     """SHA-256 of its weight file, if it is a learned policy."""
 
@@ -222,13 +222,13 @@ class NewDecision(TypedDict):
     aircraft: str
     """The aircraft."""
     deadline_ms: NotRequired[int | None]
-    """Milliseconds within which the policy must answer; if it does not, a faster one decides."""
+    """Time limit of the policy, milliseconds. If it is not ready then, a faster one decides."""
     policy: NotRequired[str | None]
     """The policy; without it, the day's."""
     reason: NotRequired[str | None]
     """Why a person chose."""
     time: NotRequired[Moment | None]
-    """The time of the decision; without it, or before what has happened, now."""
+    """The time of the decision; without it, or if it is in the past, now."""
     to: NotRequired[str | None]
     """The vertiport, if a person chooses; without it, the policy does."""
 
@@ -239,9 +239,9 @@ class TakenDecision(TypedDict):
     seq: int
     """The number of its event."""
     to: str
-    """Where the aircraft flies; its own vertiport means hold."""
+    """The destination of the aircraft; its own vertiport means hold."""
     proposal: NotRequired[Proposal | None]
-    """What the policy proposed, with its reasons; null if a person chose."""
+    """The proposal of the policy, with its reasons; null if a person chose."""
 
 
 PairDemand = TypedDict(
@@ -251,7 +251,7 @@ PairDemand = TypedDict(
         "from": str,
         # Where they want to go.
         "to": str,
-        # How many of them still want to fly.
+        # The number of them who still want to fly.
         "passengers": int,
     },
 )
@@ -259,8 +259,8 @@ PairDemand = TypedDict(
 
 
 class PeriodDemand(TypedDict):
-    """The passengers of a demand period who still want to fly: those who wait if the period has begun, and
-    those who are expected if it has not.
+    """The passengers of a demand period who still want to fly: waiting ones if the period has begun, and
+    expected ones if it has not.
     """
 
     seq: int
@@ -274,20 +274,17 @@ class PeriodDemand(TypedDict):
 
 
 class ClockEvent(TypedDict):
-    """The day is at this time; nothing else is known. Other events may not lie more than four hours after the
-    latest.
+    """The day has reached this time; nothing else is known. Other events may be at most four hours later than
+    the latest time.
     """
 
     type: Literal["clock"]
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 class DecidedEvent(TypedDict):
-    """An aircraft that is ready is to fly to a vertiport; its own vertiport means hold. The rules must permit
-    it.
-    """
+    """A ready aircraft flies to a vertiport; its own vertiport means hold. The rules must permit it."""
 
     type: Literal["decided"]
     aircraft: str
@@ -295,18 +292,17 @@ class DecidedEvent(TypedDict):
     to: str
     """The vertiport."""
     instead_of: NotRequired[str | None]
-    """What the policy would have chosen, if a person overruled it. The service alone says it."""
+    """The choice of the policy, if a person overruled it. Only the service sets it."""
     policy: NotRequired[str | None]
-    """The policy that proposed it; absent if a person chose. The service alone says it."""
+    """The policy that proposed it; absent if a person chose. Only the service sets it."""
     reason: NotRequired[str | None]
     """Why a person chose."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 class UndoneEvent(TypedDict):
-    """The latest decision of an aircraft is taken back. It must not have departed."""
+    """The latest decision of an aircraft is cancelled. It must not have departed."""
 
     type: Literal["undone"]
     aircraft: str
@@ -314,8 +310,7 @@ class UndoneEvent(TypedDict):
     reason: NotRequired[str | None]
     """Why."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 class DepartedEvent(TypedDict):
@@ -325,12 +320,11 @@ class DepartedEvent(TypedDict):
     aircraft: str
     """The aircraft."""
     passengers: NotRequired[int | None]
-    """Passengers on board, if not as many as expected."""
+    """Passengers on board, if their number differs from the expected one."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
     to: NotRequired[str | None]
-    """Where it flies to, if that is not what was decided."""
+    """The destination, if it differs from the decision."""
 
 
 class LandedEvent(TypedDict):
@@ -340,10 +334,9 @@ class LandedEvent(TypedDict):
     aircraft: str
     """The aircraft."""
     at: NotRequired[str | None]
-    """Where it is, if that is not where it was flying to."""
+    """The vertiport, if it is not the planned destination."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 class ChargingEvent(TypedDict):
@@ -355,8 +348,7 @@ class ChargingEvent(TypedDict):
     ready: Moment
     """The expected end of charging."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 class ReadyEvent(TypedDict):
@@ -366,12 +358,11 @@ class ReadyEvent(TypedDict):
     aircraft: str
     """The aircraft."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 class DelayedEvent(TypedDict):
-    """What an aircraft does next is expected at another time: its departure if it has been sent off, its
+    """The next step of an aircraft is expected at another time: its departure if it has been dispatched, its
     landing if it is in the air, the end of charging if it stands.
     """
 
@@ -381,8 +372,7 @@ class DelayedEvent(TypedDict):
     until: Moment
     """The new time."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 class OutOfServiceEvent(TypedDict):
@@ -394,8 +384,7 @@ class OutOfServiceEvent(TypedDict):
     reason: NotRequired[str | None]
     """Why."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
     until: NotRequired[Moment | None]
     """Until when, if that is known."""
 
@@ -407,16 +396,15 @@ class BackInServiceEvent(TypedDict):
     aircraft: str
     """The aircraft."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 RouteNamesFromTo = TypedDict(
     "RouteNamesFromTo",
     {
-        # Vertiport that flights leave.
+        # The vertiport of departure.
         "from": str,
-        # Vertiport that flights fly to.
+        # The vertiport of destination.
         "to": str,
     },
 )
@@ -435,8 +423,8 @@ RouteNames: TypeAlias = RouteNamesFromTo | RouteNamesVertiport
 
 
 class ClosedEvent(TypedDict):
-    """Routes are closed to new flights: one way between two vertiports, or all that lead to a vertiport or
-    away from it.
+    """Routes are closed to new flights: one direction between two vertiports, or all routes to or from a
+    vertiport.
     """
 
     type: Literal["closed"]
@@ -445,8 +433,7 @@ class ClosedEvent(TypedDict):
     reason: NotRequired[str | None]
     """Why."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
     until: NotRequired[Moment | None]
     """First instant at which they are open again, if it is known."""
 
@@ -458,8 +445,7 @@ class ReopenedEvent(TypedDict):
     routes: RouteNames
     """The routes."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 class DemandEvent(TypedDict):
@@ -471,8 +457,7 @@ class DemandEvent(TypedDict):
     pairs: list[PairDemand]
     """The pairs that change."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 BookedEvent = TypedDict(
@@ -487,8 +472,7 @@ BookedEvent = TypedDict(
         "to": str,
         # Their number.
         "passengers": int,
-        # When it happened or became known. Without it, that is now: the latest time that the day has heard
-        # of.
+        # When it happened or became known. Without it, that is now: the latest time that was reported.
         "time": NotRequired[Moment | None],
     },
 )
@@ -506,16 +490,15 @@ CancelledEvent = TypedDict(
         "to": str,
         # Their number.
         "passengers": int,
-        # When it happened or became known. Without it, that is now: the latest time that the day has heard
-        # of.
+        # When it happened or became known. Without it, that is now: the latest time that was reported.
         "time": NotRequired[Moment | None],
     },
 )
-"""Passengers do not want to fly any more."""
+"""Passengers no longer want to fly."""
 
 
 class StandsEvent(TypedDict):
-    """A vertiport has another number of stands, or of chargers where they are counted apart."""
+    """The number of stands of a vertiport changes, or of chargers if they are counted separately."""
 
     type: Literal["stands"]
     vertiport: str
@@ -523,8 +506,7 @@ class StandsEvent(TypedDict):
     stands: int
     """The number."""
     time: NotRequired[Moment | None]
-    """When it happened or became known. Without it, that is now: the latest time that the day has heard of.
-    """
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 Event: TypeAlias = (
@@ -549,22 +531,22 @@ Event: TypeAlias = (
 
 
 class TakenEvent(TypedDict):
-    """An event as it was taken."""
+    """A stored event."""
 
     seq: int
     """Its number."""
     mark: str
-    """Its number with a sum over the log up to it. Sent as `Last-Event-ID`, it makes sure that a stream goes
-    on in the same log.
+    """Its number with a checksum over the log up to it. Sent as `Last-Event-ID`, it ensures that a stream
+    continues in the same log.
     """
     at_ms: int
-    """When it was taken, milliseconds of the Unix clock."""
+    """When the service stored it, milliseconds of the Unix clock."""
     actor: str
-    """Who sent it."""
+    """The name of the sender's token."""
     event: Event
     """The event."""
     notices: list[str]
-    """What people should look at."""
+    """Notices for people."""
 
 
 class EventList(TypedDict):
@@ -577,30 +559,30 @@ class EventList(TypedDict):
 
 
 OneOrMore: TypeAlias = list[Event] | Event
-"""One event, or several that are taken all or none."""
+"""One event, or several that are applied together or not at all."""
 
 
 class Taken(TypedDict):
-    """What came of events."""
+    """The result of appending events."""
 
     seq: int
     """The number of the latest event."""
     notices: list[list[str]]
-    """What people should look at."""
+    """Notices for people."""
 
 
 Entry = TypedDict(
     "Entry",
     {
-        # When it was decided.
+        # When the decision was taken.
         "time": Moment,
         # The aircraft.
         "aircraft": str,
-        # Where it left.
+        # The vertiport of departure.
         "from": str,
-        # Where it flew to.
+        # The vertiport of destination.
         "to": str,
-        # Whether it has been reported landed. Until then the amounts are those that are expected.
+        # Whether it has landed. Until then the amounts are expected ones.
         "has_landed": bool,
         # Passengers on board.
         "passengers": int,
@@ -646,14 +628,14 @@ class Totals(TypedDict):
 
 
 class Ledger(TypedDict):
-    """What a day has earned and cost so far."""
+    """The earnings and costs of a day so far."""
 
     seq: int
     """The number of the latest event."""
     flights: list[Entry]
     """An entry for each flight, in the order in which they were decided."""
     totals: Totals
-    """The sums, and what aircraft cost whether they fly or not."""
+    """The sums, including the fixed costs of aircraft."""
 
 
 Leg = TypedDict(
@@ -661,11 +643,11 @@ Leg = TypedDict(
     {
         # The aircraft.
         "aircraft": str,
-        # Where it leaves.
+        # The vertiport of departure.
         "from": str,
-        # Where it flies to; a hold stays where it is.
+        # The destination; that of a hold is the same vertiport.
         "to": str,
-        # When it was decided, or is expected to be.
+        # When the decision was taken, or is expected.
         "time": Moment,
         # When it lands.
         "arrival": Moment,
@@ -683,24 +665,26 @@ Leg = TypedDict(
 
 
 class Outlook(TypedDict):
-    """How a day is expected to go on if a policy takes every decision from now on."""
+    """The expected rest of a day if a policy takes every decision from now on."""
 
     seq: int
     """The number of the latest event that it takes into account."""
     now: Moment
-    """The latest time that the day has heard of."""
+    """The latest time that was reported."""
     policy: str
     """The policy."""
     profit_so_far_usd: float
-    """Profit so far, dollars: of the flights that have been sent off, less what the fleet costs all day."""
+    """Profit so far, dollars: that of the flights that have been dispatched, less the fixed costs of the
+    fleet.
+    """
     totals: Totals
-    """The numbers of the whole day as it is expected to end."""
+    """The numbers of the whole day at its expected end."""
     legs: list[Leg]
-    """Every flight and hold of the day, in the order of decisions: those that were taken, then those that are
-    expected.
+    """Every flight and hold of the day, in the order of decisions: first those that were taken, then the
+    expected ones.
     """
     too_late: NotRequired[str | None]
-    """The policy that was asked, if it could not play the rest of the day in time. The one that is named then
+    """The requested policy, if it could not play the rest of the day in time. The policy in `policy` then
     did.
     """
     upper_bound_usd: NotRequired[float | None]
@@ -710,16 +694,16 @@ class Outlook(TypedDict):
 
 
 PhaseName: TypeAlias = Literal["standing", "sent_off", "in_the_air"]
-"""What an aircraft does."""
+"""The phase of an aircraft."""
 
 FlightState = TypedDict(
     "FlightState",
     {
-        # Where it leaves.
+        # The vertiport of departure.
         "from": str,
-        # Where it flies to.
+        # The vertiport of destination.
         "to": str,
-        # When it was decided.
+        # When the decision was taken.
         "decided": Moment,
         # Passengers on board.
         "passengers": int,
@@ -734,7 +718,7 @@ class AircraftState(TypedDict):
     id: str
     """Its id."""
     phase: PhaseName
-    """What it does."""
+    """Its current phase."""
     place: str
     """The vertiport where it stands or will land."""
     arrival: Moment
@@ -746,7 +730,7 @@ class AircraftState(TypedDict):
     out_of_service: bool
     """Whether it is out of service."""
     flight: NotRequired[FlightState | None]
-    """The flight that it has been sent off on, until it has landed."""
+    """The flight that it was dispatched on, until it has landed."""
     out_until: NotRequired[Moment | None]
     """When it is expected back in service, if that is known."""
 
@@ -755,7 +739,7 @@ class ClosedRoute(TypedDict):
     """A route that is closed to new flights."""
 
     to: str
-    """Where it leads."""
+    """Its destination."""
     until: NotRequired[Moment | None]
     """When it opens, if that is known."""
 
@@ -766,29 +750,29 @@ class VertiportState(TypedDict):
     id: str
     """Its id."""
     stands: int
-    """Its stands, or its chargers where they are counted apart."""
+    """Its stands, or its chargers if they are counted separately."""
     taken: int
-    """Aircraft that take them, standing there or on their way."""
+    """Aircraft that occupy them, standing there or on their way."""
     closed: list[ClosedRoute]
     """The routes from here that are closed."""
 
 
 class NoticeState(TypedDict):
-    """Something that people should look at."""
+    """A notice for people."""
 
     text: str
-    """What it is."""
+    """The notice in words."""
     seq: NotRequired[int | None]
-    """The event that it came with; null if it holds now, whatever it came from."""
+    """The event that it came with; null if it describes the current state."""
 
 
 class DayState(TypedDict):
-    """What is known of a day."""
+    """The state of a day."""
 
     seq: int
     """The number of the latest event."""
     now: Moment
-    """The latest time that the day has heard of."""
+    """The latest time that was reported."""
     aircraft: list[AircraftState]
     """Every aircraft."""
     vertiports: list[VertiportState]
@@ -796,11 +780,11 @@ class DayState(TypedDict):
     totals: Totals
     """The account so far."""
     notices: list[NoticeState]
-    """What people should look at."""
+    """Notices for people."""
 
 
 class MoreAircraft(TypedDict):
-    """An aircraft that the fleet might have."""
+    """An additional aircraft of the fleet."""
 
     id: str
     """Its id."""
@@ -811,33 +795,33 @@ class MoreAircraft(TypedDict):
 
 
 StandCount: TypeAlias = int
-"""A number of stands, or of chargers where they are counted apart."""
+"""A number of stands, or of chargers if they are counted separately."""
 
 
 class WhatIf(TypedDict):
-    """A day as it might be."""
+    """A changed day."""
 
     aircraft: NotRequired[list[MoreAircraft]]
-    """Aircraft that the fleet would have had since the morning."""
+    """Additional aircraft of the fleet from the morning on."""
     events: NotRequired[list[Event]]
-    """Events that might happen now, in their order."""
+    """Events that might happen now, in order."""
     policy: NotRequired[str | None]
     """The policy that would decide; without it, the day's."""
     stands: NotRequired[Mapping[str, StandCount]]
-    """Stands (or chargers where they are counted apart) that vertiports would have had since the morning."""
+    """Numbers of stands (or of chargers if they are counted separately) of vertiports from the morning on."""
 
 
 class Comparison(TypedDict):
-    """What a change would lead to."""
+    """The effect of a change."""
 
     as_it_is: Outlook
-    """The outlook as things are, by the day's policy."""
+    """The outlook without the change, by the day's policy."""
     what_if: Outlook
-    """The outlook as they might be."""
+    """The outlook with the change."""
     difference_usd: float
-    """How much more the day would earn, dollars."""
+    """The increase of the day's profit, dollars."""
     notices: list[str]
-    """What people should look at of the events that might happen."""
+    """Notices about the hypothetical events."""
 
 
 class VertiportInfo(TypedDict):
@@ -852,7 +836,7 @@ class VertiportInfo(TypedDict):
     stands: int
     """Its stands."""
     chargers: NotRequired[int | None]
-    """Its chargers, where they are counted apart from stands."""
+    """Its chargers, if they are counted separately from stands."""
     latitude: NotRequired[float | None]
     """Latitude in degrees, if it is known."""
     longitude: NotRequired[float | None]
@@ -881,11 +865,11 @@ class NetworkInfo(TypedDict):
     passengers: float
     """Mean passengers of a day."""
     warnings: list[str]
-    """What is allowed but hardly meant."""
+    """Settings that are allowed but probably not intended."""
     time_zone: NotRequired[str | None]
-    """The time zone of its clocks by its name in the IANA database, if it says so."""
+    """The time zone of its clocks by its name in the IANA database, if it has one."""
     toml: NotRequired[str | None]
-    """The network file, where one network is asked for."""
+    """The network file, if one network is read."""
 
 
 class NetworkList(TypedDict):
@@ -896,21 +880,21 @@ class NetworkList(TypedDict):
 
 
 class NewNetwork(TypedDict):
-    """A network that is uploaded."""
+    """A network to upload."""
 
     toml: str
-    """The text of its network file, with its table of demand in it."""
+    """The text of its network file, including its table of demand."""
 
 
 class PolicyInfo(TypedDict):
     """A policy."""
 
     name: str
-    """The name by which requests ask for it."""
+    """Its name in requests."""
     is_shipped: bool
-    """Whether the program has it; the others were uploaded."""
+    """Whether it belongs to the program; the others were uploaded."""
     kind: NotRequired[str | None]
-    """What decides by uploaded weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`."""
+    """The kind of uploaded weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`."""
     trained_on: NotRequired[str | None]
     """The network on whose days uploaded weights were trained."""
     vertiports: NotRequired[int | None]
@@ -923,7 +907,7 @@ class PolicyList(TypedDict):
     """All policies."""
 
     policies: list[PolicyInfo]
-    """Those that the program has, then those that were uploaded, by their names."""
+    """Those of the program, then those that were uploaded, by their names."""
 
 
 Weights: TypeAlias = str
@@ -931,10 +915,10 @@ Weights: TypeAlias = str
 
 
 class WeightsInfo(TypedDict):
-    """What a weight file is."""
+    """The properties of a weight file."""
 
     kind: str
-    """What decides by the weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`."""
+    """The kind of the weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`."""
     weights_sha256: str
     """SHA-256 of the file."""
     trained_on: str
@@ -944,10 +928,10 @@ class WeightsInfo(TypedDict):
 
 
 Split: TypeAlias = Literal["comparison", "validation"]
-"""Whose days are played. No day belongs to both."""
+"""The purpose of days. No day has both."""
 
 StudyState: TypeAlias = Literal["waiting", "playing", "finished", "failed"]
-"""How far a study is."""
+"""The state of a study."""
 
 
 class Estimate(TypedDict):
@@ -962,7 +946,7 @@ class Estimate(TypedDict):
 
 
 class PlayedPolicy(TypedDict):
-    """What came out for a policy while others still play."""
+    """The result of a policy while others still play."""
 
     name: str
     """Its name."""
@@ -971,17 +955,17 @@ class PlayedPolicy(TypedDict):
 
 
 class StudyProgress(TypedDict):
-    """How far a study has come."""
+    """The progress of a study."""
 
     share: float
-    """The share of all that is to be played that has been, 0 to 1; every policy counts the same."""
+    """The share of the work that is done, 0 to 1; every policy counts the same."""
     played: list[PlayedPolicy]
-    """What came out for the policies that have played all their days."""
+    """The results of the policies that have played all their days."""
     doing: NotRequired[str | None]
     """The policy that plays, or `bounds` while days are bounded; absent while days are drawn."""
     left_s: NotRequired[float | None]
-    """How much longer it is likely to play, seconds: the rest of this policy as quick as its days so far, the
-    others as quick as those before them on the mean. Absent until a day has been played.
+    """Expected remaining time, seconds. It assumes that the rest of this policy takes as long per day as its
+    days so far, and the others as long as the mean of those before. Absent until a day has been played.
     """
 
 
@@ -997,36 +981,38 @@ class Difference(TypedDict):
     days_behind: int
     """Days on which it earned less."""
     p_value: NotRequired[float | None]
-    """The chance of a difference as large as this if there were none (two-sided); null with one day."""
+    """The p-value: the probability of a difference at least as large as this if there were none (two-sided);
+    null with one day. day.
+    """
 
 
 class PolicyResult(TypedDict):
-    """What came out for one policy. Amounts and counts are means a day."""
+    """The result of one policy. Amounts and counts are means per day."""
 
     name: str
     """Its name."""
     description: str
-    """What it does."""
+    """A description of the policy."""
     sees: str
-    """What it looks at: `present`, `forecast` or `whole-day`."""
+    """The information that it uses: `present`, `forecast` or `whole-day`."""
     profit_usd: Estimate
     """Profit, dollars."""
     revenue_usd: float
     """Fares, dollars."""
     passenger_cost_usd: float
-    """What carrying passengers costs, dollars."""
+    """Cost of carrying passengers, dollars."""
     energy_cost_usd: float
-    """What energy costs, dollars."""
+    """Cost of energy, dollars."""
     flight_cost_usd: float
-    """What flights cost with or without passengers, dollars."""
+    """Cost of flights, with or without passengers, dollars."""
     aircraft_cost_usd: float
-    """What the fleet costs whatever it does, dollars."""
+    """Fixed cost of the fleet, dollars."""
     site_cost_usd: float
-    """What stands and chargers cost whether or not they are used, dollars."""
+    """Fixed cost of stands and chargers, dollars."""
     passengers: float
     """Passengers who were carried."""
     spilled_passengers: float
-    """Passengers who were not."""
+    """Passengers who were not carried."""
     load_factor: float
     """Passenger-miles over seat-miles, 0 to 1."""
     flights: float
@@ -1038,28 +1024,28 @@ class PolicyResult(TypedDict):
     daily_profit_usd: list[float]
     """The profit of each day, dollars, in the order of the days' seeds."""
     bound_share: NotRequired[Estimate | None]
-    """Profit as a share of the day's upper bound, if bounds were asked for."""
+    """Profit as a share of the day's upper bound, if bounds were requested."""
     minus_first: NotRequired[Difference | None]
-    """By how much it earns more than the first policy; absent for the first."""
+    """Its lead over the first policy; absent for the first."""
 
 
 class StudyResult(TypedDict):
-    """What came out of a study. Amounts and counts are means a day."""
+    """The result of a study. Amounts and counts are means per day."""
 
     program_version: str
     """The version of the program that played it."""
     first_seed: int
-    """The seed of the first day; the others follow one by one."""
+    """The seed of the first day; the others have the following seeds."""
     policies: list[PolicyResult]
-    """Every policy, in the order in which they were asked for."""
+    """Every policy, in the order of the request."""
     upper_bound_usd: NotRequired[Estimate | None]
-    """Upper bound of a day's profit, dollars, if bounds were asked for. No schedule earns more; proven, not
-    estimated.
+    """Upper bound of a day's profit, dollars, if bounds were requested. No schedule earns more; it is proven,
+    not estimated.
     """
 
 
 class StudyInfo(TypedDict):
-    """A study: what it was asked for, how far it is, and what came out."""
+    """A study: its request, its progress and its result."""
 
     id: str
     """Its id."""
@@ -1076,23 +1062,23 @@ class StudyInfo(TypedDict):
     seed: int
     """The seed of its first day, or its number among the validation days."""
     split: Split
-    """Whose days they are."""
+    """The purpose of its days."""
     bounds: bool
-    """Whether every day gets an upper bound."""
+    """Whether an upper bound is proven for every day."""
     command: str
-    """The command that plays the same study without the service."""
+    """The command that runs the same study without the service."""
     created_ms: int
-    """When it was asked for, milliseconds of the Unix clock."""
+    """When it was requested, milliseconds of the Unix clock."""
     warnings: list[str]
-    """What is allowed but hardly meant."""
+    """Settings that are allowed but probably not intended."""
     state: StudyState
-    """How far it is."""
+    """Its state."""
     problem: NotRequired[Problem | None]
-    """Why it failed."""
+    """The reason why it failed."""
     progress: NotRequired[StudyProgress | None]
-    """How far it has come, while it plays."""
+    """Its progress, while it plays."""
     result: NotRequired[StudyResult | None]
-    """What came out, where one study that has finished is asked for."""
+    """The result, if a finished study is read."""
     took_s: NotRequired[float | None]
     """How long it played, seconds, once it has finished."""
 
@@ -1105,16 +1091,16 @@ class StudyList(TypedDict):
 
 
 class NewStudy(TypedDict):
-    """A study to be made."""
+    """A study to make."""
 
     policies: list[str]
-    """The policies that play the days. The others are measured against the first. `plan` is the planner,
-    which knows the days: a reference, not a policy.
+    """The policies that play the days. The others are compared with the first. `plan` is the planner, which
+    knows the days in advance: a reference, not a policy.
     """
     days: int
-    """How many days are played."""
+    """The number of days."""
     bounds: NotRequired[bool]
-    """Whether every day gets an upper bound, which takes long on large networks."""
+    """Whether to prove an upper bound for every day, which takes long on large networks."""
     network: NotRequired[str | None]
     """A network that the program ships, or that was uploaded."""
     seed: NotRequired[int | None]
@@ -1122,13 +1108,13 @@ class NewStudy(TypedDict):
     of the first. 1 if it is absent.
     """
     split: NotRequired[Split]
-    """Whose days are played."""
+    """The purpose of the days."""
     toml: NotRequired[str | None]
-    """The text of a network file in place of a name. It is not kept."""
+    """The text of a network file in place of a name. It is not stored."""
 
 
 class Play(TypedDict):
-    """What a policy did on a day."""
+    """A day as a policy played it."""
 
     policy: str
     """The policy."""
@@ -1146,7 +1132,7 @@ class ReplayedDay(TypedDict):
     scenario: Mapping[str, object]
     """The scenario, as its file has it."""
     plays: list[Play]
-    """What each policy did."""
+    """The day as each policy played it."""
 
 
 class StudyReplay(TypedDict):

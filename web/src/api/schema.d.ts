@@ -28,7 +28,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** What the service measures about itself, for Prometheus. */
+        /** The metrics of the service, for Prometheus. */
         get: operations["metrics"];
         put?: never;
         post?: never;
@@ -62,7 +62,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Whether the store of the service takes what it is given. It needs no token. */
+        /** Whether the store of the service accepts writes. It needs no token. */
         get: operations["readyz"];
         put?: never;
         post?: never;
@@ -79,7 +79,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Returns what the service is, and what the sender may do. */
+        /** Returns the properties of the service, and the rights of the sender. */
         get: operations["service_info"];
         put?: never;
         post?: never;
@@ -151,7 +151,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Closes a day to writes. It can still be read, and be opened again. */
+        /** Closes a day to writes. It can still be read, and reopened. */
         post: operations["archive_day"];
         delete?: never;
         options?: never;
@@ -169,8 +169,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Takes a decision: the day's policy chooses, or the one that is named, or a person. It is durable
-         *     when the answer comes.
+         * Takes a decision: by the day's policy, by the one that is named, or by a person. It is durable
+         *     before the answer is sent.
          */
         post: operations["take_decision"];
         delete?: never;
@@ -206,7 +206,7 @@ export interface paths {
         /** Lists events. */
         get: operations["list_events"];
         put?: never;
-        /** Takes an event in, or several, all or none. They are durable when the answer comes. */
+        /** Applies an event, or several together or not at all. They are durable before the answer is sent. */
         post: operations["add_events"];
         delete?: never;
         options?: never;
@@ -239,8 +239,8 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * The rest of the day as it is expected, now or after any of its events, if a policy takes every
-         *     decision from then on.
+         * The expected rest of the day, now or after any of its events, if a policy takes every decision
+         *     from then on.
          */
         get: operations["day_outlook"];
         put?: never;
@@ -258,7 +258,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** The scenario that the day began with, as a scenario file has it. */
+        /** The scenario at the beginning of the day, in the format of scenario files. */
         get: operations["day_scenario"];
         put?: never;
         post?: never;
@@ -275,7 +275,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** What is known of a day, now or after any of its events. */
+        /** The state of a day, now or after any of its events. */
         get: operations["day_state"];
         put?: never;
         post?: never;
@@ -293,9 +293,8 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on.
-         *     A message of the type `behind` says in words that the reader was too slow; what it missed
-         *     follows.
+         * Streams the events of a day after `Last-Event-ID`, each with its number as `id`. A message of
+         *     the type `behind` reports that the reader was too slow; the events that it missed follow.
          */
         get: operations["stream_events"];
         put?: never;
@@ -332,7 +331,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Opens a day again that was archived. */
+        /** Reopens a day that was archived. */
         post: operations["unarchive_day"];
         delete?: never;
         options?: never;
@@ -350,8 +349,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Compares the outlook with what it would be after events that have not happened, with another
-         *     policy, or with other stands or more aircraft. Nothing changes.
+         * Compares the outlook with that after hypothetical events, with another policy, or with other
+         *     stands or more aircraft. Nothing changes.
          */
         post: operations["what_if"];
         delete?: never;
@@ -386,7 +385,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Checks a network without keeping it. */
+        /** Checks a network without storing it. */
         post: operations["validate_network"];
         delete?: never;
         options?: never;
@@ -404,12 +403,12 @@ export interface paths {
         /** Reads a network, with its file. */
         get: operations["read_network"];
         /**
-         * Keeps a network under its name, in the place of one that was uploaded before. Days that were
-         *     made stay as they are.
+         * Stores a network under its name, and replaces one that was uploaded before. Existing days keep
+         *     the network that they were made from.
          */
         put: operations["put_network"];
         post?: never;
-        /** Removes a network that was uploaded. Days that were made from it stay as they are. */
+        /** Removes a network that was uploaded. Existing days keep the network that they were made from. */
         delete: operations["delete_network"];
         options?: never;
         head?: never;
@@ -442,7 +441,7 @@ export interface paths {
         };
         get?: never;
         put?: never;
-        /** Checks a weight file without keeping it, and says what it is. */
+        /** Checks a weight file without storing it, and describes it. */
         post: operations["validate_policy"];
         delete?: never;
         options?: never;
@@ -457,17 +456,17 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Reads what is known of a policy. */
+        /** Describes a policy. */
         get: operations["read_policy"];
         /**
-         * Keeps the weights of a policy, the bytes of a weight file, under a name. The name means these
-         *     weights for good.
+         * Stores the weights of a policy, the bytes of a weight file, under a name. The name means these
+         *     weights permanently.
          */
         put: operations["put_policy"];
         post?: never;
         /**
-         * Removes a policy that was uploaded. A day that it decides on goes on with it until the service
-         *     starts again.
+         * Removes a policy that was uploaded. A day that it decides on continues with it until the service
+         *     restarts.
          */
         delete: operations["delete_policy"];
         options?: never;
@@ -483,15 +482,14 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Lists the studies that were asked for since the service began, the latest first. It keeps the
-         *     last 20 that have ended, in memory: what a study says follows from what it was asked for, so it
-         *     can be had again.
+         * Lists the studies since the service started, the latest first. It keeps the last 20 that have
+         *     ended, in memory. The result of a study follows from its request, so it can be computed again.
          */
         get: operations["list_studies"];
         put?: never;
         /**
          * Plays policies on many days of a network, in the background. One study plays at a time, and
-         *     eight may wait. It is kept until the service stops.
+         *     eight may wait. The service keeps it until it stops.
          */
         post: operations["make_study"];
         delete?: never;
@@ -507,11 +505,11 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** Reads a study: how far it is, and its result once it has finished. */
+        /** Reads a study: its progress, and its result once it has finished. */
         get: operations["read_study"];
         put?: never;
         post?: never;
-        /** Ends a study if it plays or waits, and forgets it. */
+        /** Ends a study if it plays or waits, and removes it. */
         delete: operations["delete_study"];
         options?: never;
         head?: never;
@@ -545,7 +543,7 @@ export interface paths {
             path?: never;
             cookie?: never;
         };
-        /** The result of a study as the page of a report, which opens without the service too. */
+        /** The result of a study as the page of a report, which also opens without the service. */
         get: operations["study_report"];
         put?: never;
         post?: never;
@@ -571,14 +569,14 @@ export interface components {
             /** @description Whether it is out of service. */
             out_of_service: boolean;
             out_until?: components["schemas"]["Moment"] | null;
-            /** @description What it does. */
+            /** @description Its current phase. */
             phase: components["schemas"]["PhaseName"];
             /** @description The vertiport where it stands or will land. */
             place: string;
             /** @description When it is expected to be ready. */
             ready: components["schemas"]["Moment"];
         };
-        /** @description What flying to a vertiport would bring. */
+        /** @description The result of flying to a vertiport. */
         Alternative: {
             /** @description When it would land. */
             arrival: components["schemas"]["Moment"];
@@ -607,48 +605,48 @@ export interface components {
             stand_price_usd?: number | null;
             /**
              * Format: int32
-             * @description Stands there, or chargers where they are counted apart.
+             * @description Stands there, or chargers if they are counted separately.
              */
             stands: number;
             /**
              * Format: int32
-             * @description Aircraft that take them, standing there or on their way.
+             * @description Aircraft that occupy them, standing there or on their way.
              */
             stands_taken: number;
             /** @description The vertiport; the aircraft's own means hold. */
             to: string;
             /**
              * Format: double
-             * @description What the policy compares its choices by: dollars for policies that price the rest of the day
-             *     or roll it out, dollars an hour for `greedy`. Absent if the policy did not consider it.
+             * @description The value that the policy compares its choices by: dollars for policies that price the rest
+             *     of the day or roll it out, dollars an hour for `greedy`. Absent if the policy did not
+             *     consider this choice.
              */
             value?: number | null;
             /**
              * Format: double
-             * @description Worth at the day's bid prices, dollars: the flight's profit and what being ready there
-             *     afterwards is worth, less the prices of its passengers and its stand. Absent if the policy
-             *     has no prices.
+             * @description Worth at the day's bid prices, dollars: the flight's profit and the worth of being ready
+             *     there, less the prices of its passengers and its stand. Absent if the policy has no prices.
              */
             worth_usd?: number | null;
         };
         /** @description A route that is closed to new flights. */
         ClosedRoute: {
-            /** @description Where it leads. */
+            /** @description Its destination. */
             to: string;
             until?: components["schemas"]["Moment"] | null;
         };
-        /** @description What a change would lead to. */
+        /** @description The effect of a change. */
         Comparison: {
-            /** @description The outlook as things are, by the day's policy. */
+            /** @description The outlook without the change, by the day's policy. */
             as_it_is: components["schemas"]["Outlook"];
             /**
              * Format: double
-             * @description How much more the day would earn, dollars.
+             * @description The increase of the day's profit, dollars.
              */
             difference_usd: number;
-            /** @description What people should look at of the events that might happen. */
+            /** @description Notices about the hypothetical events. */
             notices: string[];
-            /** @description The outlook as they might be. */
+            /** @description The outlook with the change. */
             what_if: components["schemas"]["Outlook"];
         };
         /** @description A day. */
@@ -664,14 +662,14 @@ export interface components {
             date?: string | null;
             /** @description Its id. */
             id: string;
-            /** @description What people call it. */
+            /** @description Its display name. */
             name: string;
-            /** @description The policy that decides when none is asked for. */
+            /** @description The default policy of its decisions. */
             policy: string;
             progress?: components["schemas"]["DayProgress"] | null;
             /**
              * Format: int64
-             * @description The number of its events, for a day that was asked for by its id.
+             * @description The number of its events, for a request that names the day.
              */
             seq?: number | null;
             /** @description The time zone of its clock, if it has a date. */
@@ -684,27 +682,27 @@ export interface components {
             /** @description The cursor of the next page, if there is one. */
             next?: string | null;
         };
-        /** @description How far a day is. */
+        /** @description The progress of a day. */
         DayProgress: {
             /** @description Whether nothing is left to decide and every aircraft is on the ground. */
             is_over: boolean;
-            /** @description The latest time that it has heard of. */
+            /** @description The latest time that was reported. */
             now: components["schemas"]["Moment"];
             /**
              * Format: double
-             * @description Profit of the flights that have been sent off, less what the fleet costs all day; dollars.
+             * @description Profit of the flights that have been dispatched, less the fixed costs of the fleet; dollars.
              */
             profit_usd: number;
             /** @description Aircraft that wait for a decision. */
             waiting: number;
         };
-        /** @description What is known of a day. */
+        /** @description The state of a day. */
         DayState: {
             /** @description Every aircraft. */
             aircraft: components["schemas"]["AircraftState"][];
-            /** @description What people should look at. */
+            /** @description Notices for people. */
             notices: components["schemas"]["NoticeState"][];
-            /** @description The latest time that the day has heard of. */
+            /** @description The latest time that was reported. */
             now: components["schemas"]["Moment"];
             /**
              * Format: int64
@@ -727,7 +725,8 @@ export interface components {
             days_behind: number;
             /**
              * Format: double
-             * @description The chance of a difference as large as this if there were none (two-sided); null with one
+             * @description The p-value: the probability of a difference at least as large as this if there were none
+             *     (two-sided); null with one day.
              *     day.
              */
             p_value?: number | null;
@@ -753,9 +752,9 @@ export interface components {
              * @description Cost of the flight without its energy, with or without passengers; dollars.
              */
             flight_cost_usd: number;
-            /** @description Where it left. */
+            /** @description The vertiport of departure. */
             from: string;
-            /** @description Whether it has been reported landed. Until then the amounts are those that are expected. */
+            /** @description Whether it has landed. Until then the amounts are expected ones. */
             has_landed: boolean;
             /**
              * Format: double
@@ -777,9 +776,9 @@ export interface components {
              * @description Fares, dollars.
              */
             revenue_usd: number;
-            /** @description When it was decided. */
+            /** @description When the decision was taken. */
             time: components["schemas"]["Moment"];
-            /** @description Where it flew to. */
+            /** @description The vertiport of destination. */
             to: string;
         };
         /** @description A mean with its interval. */
@@ -808,9 +807,9 @@ export interface components {
         } | {
             /** @description The aircraft. */
             aircraft: string;
-            /** @description What the policy would have chosen, if a person overruled it. The service alone says it. */
+            /** @description The choice of the policy, if a person overruled it. Only the service sets it. */
             instead_of?: string | null;
-            /** @description The policy that proposed it; absent if a person chose. The service alone says it. */
+            /** @description The policy that proposed it; absent if a person chose. Only the service sets it. */
             policy?: string | null;
             /** @description Why a person chose. */
             reason?: string | null;
@@ -832,18 +831,18 @@ export interface components {
             aircraft: string;
             /**
              * Format: int32
-             * @description Passengers on board, if not as many as expected.
+             * @description Passengers on board, if their number differs from the expected one.
              */
             passengers?: number | null;
             time?: components["schemas"]["Moment"] | null;
-            /** @description Where it flies to, if that is not what was decided. */
+            /** @description The destination, if it differs from the decision. */
             to?: string | null;
             /** @enum {string} */
             type: "departed";
         } | {
             /** @description The aircraft. */
             aircraft: string;
-            /** @description Where it is, if that is not where it was flying to. */
+            /** @description The vertiport, if it is not the planned destination. */
             at?: string | null;
             time?: components["schemas"]["Moment"] | null;
             /** @enum {string} */
@@ -963,21 +962,21 @@ export interface components {
         };
         /** @description A flight that has not landed. */
         FlightState: {
-            /** @description When it was decided. */
+            /** @description When the decision was taken. */
             decided: components["schemas"]["Moment"];
-            /** @description Where it leaves. */
+            /** @description The vertiport of departure. */
             from: string;
             /**
              * Format: int32
              * @description Passengers on board.
              */
             passengers: number;
-            /** @description Where it flies to. */
+            /** @description The vertiport of destination. */
             to: string;
         };
         /** @description Passengers who are expected to fly from one vertiport to another in one period. */
         ForecastRow: {
-            /** @description Where they leave. */
+            /** @description The vertiport of departure. */
             from: string;
             /**
              * Format: int64
@@ -986,17 +985,17 @@ export interface components {
             passengers: number;
             /** @description A time within the period, without a date. */
             period: components["schemas"]["Moment"];
-            /** @description Where they fly to. */
+            /** @description The vertiport of destination. */
             to: string;
         };
-        /** @description Why an alternative is not possible. */
+        /** @description The reason why an alternative is not possible. */
         Impossible: {
             /** @description The rule in words, with its numbers. */
             reason: string;
             /** @description The rule. */
             rule: components["schemas"]["RuleName"];
         };
-        /** @description What a day has earned and cost so far. */
+        /** @description The earnings and costs of a day so far. */
         Ledger: {
             /** @description An entry for each flight, in the order in which they were decided. */
             flights: components["schemas"]["Entry"][];
@@ -1005,7 +1004,7 @@ export interface components {
              * @description The number of the latest event.
              */
             seq: number;
-            /** @description The sums, and what aircraft cost whether they fly or not. */
+            /** @description The sums, including the fixed costs of aircraft. */
             totals: components["schemas"]["Totals"];
         };
         /** @description A flight or a hold. */
@@ -1014,7 +1013,7 @@ export interface components {
             aircraft: string;
             /** @description When it lands. */
             arrival: components["schemas"]["Moment"];
-            /** @description Where it leaves. */
+            /** @description The vertiport of departure. */
             from: string;
             /** @description Whether the decision has been taken. */
             is_taken: boolean;
@@ -1030,9 +1029,9 @@ export interface components {
             profit_usd: number;
             /** @description When the aircraft is ready again. */
             ready: components["schemas"]["Moment"];
-            /** @description When it was decided, or is expected to be. */
+            /** @description When the decision was taken, or is expected. */
             time: components["schemas"]["Moment"];
-            /** @description Where it flies to; a hold stays where it is. */
+            /** @description The destination; that of a hold is the same vertiport. */
             to: string;
         };
         /**
@@ -1042,7 +1041,7 @@ export interface components {
          * @example 2026-11-23T07:10:00-05:00
          */
         Moment: string | number;
-        /** @description An aircraft that the fleet might have. */
+        /** @description An additional aircraft of the fleet. */
         MoreAircraft: {
             /** @description The vertiport where it would have stood in the morning. */
             at: string;
@@ -1072,13 +1071,13 @@ export interface components {
             periods: components["schemas"]["Moment"][];
             /** @description When operations start. */
             start: components["schemas"]["Moment"];
-            /** @description The time zone of its clocks by its name in the IANA database, if it says so. */
+            /** @description The time zone of its clocks by its name in the IANA database, if it has one. */
             time_zone?: string | null;
-            /** @description The network file, where one network is asked for. */
+            /** @description The network file, if one network is read. */
             toml?: string | null;
             /** @description Its vertiports, in the order of its file. */
             vertiports: components["schemas"]["VertiportInfo"][];
-            /** @description What is allowed but hardly meant. */
+            /** @description Settings that are allowed but probably not intended. */
             warnings: string[];
         };
         /** @description All networks. */
@@ -1086,11 +1085,11 @@ export interface components {
             /** @description Those that the program ships, then those that were uploaded, by their names. */
             networks: components["schemas"]["NetworkInfo"][];
         };
-        /** @description A day to be made: from a network, or from a scenario. */
+        /** @description A day to make, from a network or from a scenario. */
         NewDay: {
             /**
-             * @description Where aircraft stand in the morning: the vertiport of each by the id of the aircraft. The
-             *     others stand where the network or the scenario has them.
+             * @description The vertiports of aircraft in the morning, by the ids of the aircraft. The others stand
+             *     where the network or the scenario places them.
              */
             aircraft?: {
                 [key: string]: string;
@@ -1101,24 +1100,24 @@ export interface components {
              */
             date?: string | null;
             /**
-             * @description The passengers who are expected, in place of those of the network or the scenario. A pair
-             *     without a row has no passengers.
+             * @description The expected passengers, in place of those of the network or the scenario. A pair without a
+             *     row has no passengers.
              */
             forecast?: components["schemas"]["ForecastRow"][] | null;
             /**
-             * @description What people call the day; without it, the name of its scenario, or of its network with the
-             *     date.
+             * @description The display name of the day; without it, the name of its scenario, or of its network with
+             *     the date.
              */
             name?: string | null;
             /** @description A network that the program ships, or that was uploaded. */
             network?: string | null;
-            /** @description The policy that decides when none is asked for. */
+            /** @description The default policy of its decisions. */
             policy?: string | null;
-            /** @description A whole scenario, as a scenario file has it. */
+            /** @description A whole scenario, in the format of scenario files. */
             scenario?: Record<string, never> | null;
             /**
              * Format: int64
-             * @description The seed with which the day is drawn from the network: its forecast and where aircraft stand
+             * @description The seed that draws the day from the network: its forecast, and the vertiports of aircraft
              *     in the morning, unless they are given. 1 if it is absent.
              */
             seed?: number | null;
@@ -1134,7 +1133,7 @@ export interface components {
             aircraft: string;
             /**
              * Format: int64
-             * @description Milliseconds within which the policy must answer; if it does not, a faster one decides.
+             * @description Time limit of the policy, milliseconds. If it is not ready then, a faster one decides.
              */
             deadline_ms?: number | null;
             /** @description The policy; without it, the day's. */
@@ -1145,25 +1144,25 @@ export interface components {
             /** @description The vertiport, if a person chooses; without it, the policy does. */
             to?: string | null;
         };
-        /** @description A network that is uploaded. */
+        /** @description A network to upload. */
         NewNetwork: {
-            /** @description The text of its network file, with its table of demand in it. */
+            /** @description The text of its network file, including its table of demand. */
             toml: string;
         };
-        /** @description A study to be made. */
+        /** @description A study to make. */
         NewStudy: {
-            /** @description Whether every day gets an upper bound, which takes long on large networks. */
+            /** @description Whether to prove an upper bound for every day, which takes long on large networks. */
             bounds?: boolean;
             /**
              * Format: int64
-             * @description How many days are played.
+             * @description The number of days.
              */
             days: number;
             /** @description A network that the program ships, or that was uploaded. */
             network?: string | null;
             /**
-             * @description The policies that play the days. The others are measured against the first. `plan` is the
-             *     planner, which knows the days: a reference, not a policy.
+             * @description The policies that play the days. The others are compared with the first. `plan` is the
+             *     planner, which knows the days in advance: a reference, not a policy.
              */
             policies: string[];
             /**
@@ -1172,38 +1171,38 @@ export interface components {
              *     the number of the first. 1 if it is absent.
              */
             seed?: number | null;
-            /** @description Whose days are played. */
+            /** @description The purpose of the days. */
             split?: components["schemas"]["Split"];
-            /** @description The text of a network file in place of a name. It is not kept. */
+            /** @description The text of a network file in place of a name. It is not stored. */
             toml?: string | null;
         };
-        /** @description Something that people should look at. */
+        /** @description A notice for people. */
         NoticeState: {
             /**
              * Format: int64
-             * @description The event that it came with; null if it holds now, whatever it came from.
+             * @description The event that it came with; null if it describes the current state.
              */
             seq?: number | null;
-            /** @description What it is. */
+            /** @description The notice in words. */
             text: string;
         };
-        /** @description One event, or several that are taken all or none. */
+        /** @description One event, or several that are applied together or not at all. */
         OneOrMore: components["schemas"]["Event"][] | components["schemas"]["Event"];
-        /** @description How a day is expected to go on if a policy takes every decision from now on. */
+        /** @description The expected rest of a day if a policy takes every decision from now on. */
         Outlook: {
             /**
-             * @description Every flight and hold of the day, in the order of decisions: those that were taken, then
-             *     those that are expected.
+             * @description Every flight and hold of the day, in the order of decisions: first those that were taken,
+             *     then the expected ones.
              */
             legs: components["schemas"]["Leg"][];
-            /** @description The latest time that the day has heard of. */
+            /** @description The latest time that was reported. */
             now: components["schemas"]["Moment"];
             /** @description The policy. */
             policy: string;
             /**
              * Format: double
-             * @description Profit so far, dollars: of the flights that have been sent off, less what the fleet costs
-             *     all day.
+             * @description Profit so far, dollars: that of the flights that have been dispatched, less the fixed costs
+             *     of the fleet.
              */
             profit_so_far_usd: number;
             /**
@@ -1212,11 +1211,11 @@ export interface components {
              */
             seq: number;
             /**
-             * @description The policy that was asked, if it could not play the rest of the day in time. The one that is
-             *     named then did.
+             * @description The requested policy, if it could not play the rest of the day in time. The policy in
+             *     `policy` then did.
              */
             too_late?: string | null;
-            /** @description The numbers of the whole day as it is expected to end. */
+            /** @description The numbers of the whole day at its expected end. */
             totals: components["schemas"]["Totals"];
             /**
              * Format: double
@@ -1231,15 +1230,15 @@ export interface components {
             from: string;
             /**
              * Format: int64
-             * @description How many of them still want to fly.
+             * @description The number of them who still want to fly.
              */
             passengers: number;
             /** @description Where they want to go. */
             to: string;
         };
         /**
-         * @description The passengers of a demand period who still want to fly: those who wait if the period has begun,
-         *     and those who are expected if it has not.
+         * @description The passengers of a demand period who still want to fly: waiting ones if the period has begun,
+         *     and expected ones if it has not.
          */
         PeriodDemand: {
             /** @description Whether the period has begun. */
@@ -1255,11 +1254,11 @@ export interface components {
             seq: number;
         };
         /**
-         * @description What an aircraft does.
+         * @description The phase of an aircraft.
          * @enum {string}
          */
         PhaseName: "standing" | "sent_off" | "in_the_air";
-        /** @description What a policy did on a day. */
+        /** @description A day as a policy played it. */
         Play: {
             /** @description The policy. */
             policy: string;
@@ -1271,7 +1270,7 @@ export interface components {
             /** @description The trace, as its file has it, with amounts to the cent. */
             trace: string;
         };
-        /** @description What came out for a policy while others still play. */
+        /** @description The result of a policy while others still play. */
         PlayedPolicy: {
             /** @description Its name. */
             name: string;
@@ -1280,11 +1279,11 @@ export interface components {
         };
         /** @description A policy. */
         PolicyInfo: {
-            /** @description Whether the program has it; the others were uploaded. */
+            /** @description Whether it belongs to the program; the others were uploaded. */
             is_shipped: boolean;
-            /** @description What decides by uploaded weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`. */
+            /** @description The kind of uploaded weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`. */
             kind?: string | null;
-            /** @description The name by which requests ask for it. */
+            /** @description Its name in requests. */
             name: string;
             /** @description The network on whose days uploaded weights were trained. */
             trained_on?: string | null;
@@ -1295,29 +1294,29 @@ export interface components {
         };
         /** @description All policies. */
         PolicyList: {
-            /** @description Those that the program has, then those that were uploaded, by their names. */
+            /** @description Those of the program, then those that were uploaded, by their names. */
             policies: components["schemas"]["PolicyInfo"][];
         };
-        /** @description What came out for one policy. Amounts and counts are means a day. */
+        /** @description The result of one policy. Amounts and counts are means per day. */
         PolicyResult: {
             /**
              * Format: double
-             * @description What the fleet costs whatever it does, dollars.
+             * @description Fixed cost of the fleet, dollars.
              */
             aircraft_cost_usd: number;
             bound_share?: components["schemas"]["Estimate"] | null;
             /** @description The profit of each day, dollars, in the order of the days' seeds. */
             daily_profit_usd: number[];
-            /** @description What it does. */
+            /** @description A description of the policy. */
             description: string;
             /**
              * Format: double
-             * @description What energy costs, dollars.
+             * @description Cost of energy, dollars.
              */
             energy_cost_usd: number;
             /**
              * Format: double
-             * @description What flights cost with or without passengers, dollars.
+             * @description Cost of flights, with or without passengers, dollars.
              */
             flight_cost_usd: number;
             /**
@@ -1340,7 +1339,7 @@ export interface components {
             name: string;
             /**
              * Format: double
-             * @description What carrying passengers costs, dollars.
+             * @description Cost of carrying passengers, dollars.
              */
             passenger_cost_usd: number;
             /**
@@ -1360,47 +1359,47 @@ export interface components {
              * @description Fares, dollars.
              */
             revenue_usd: number;
-            /** @description What it looks at: `present`, `forecast` or `whole-day`. */
+            /** @description The information that it uses: `present`, `forecast` or `whole-day`. */
             sees: string;
             /**
              * Format: double
-             * @description What stands and chargers cost whether or not they are used, dollars.
+             * @description Fixed cost of stands and chargers, dollars.
              */
             site_cost_usd: number;
             /**
              * Format: double
-             * @description Passengers who were not.
+             * @description Passengers who were not carried.
              */
             spilled_passengers: number;
         };
-        /** @description An error as the service answers it (RFC 9457). */
+        /** @description An error in an answer (RFC 9457). */
         Problem: {
-            /** @description The stable code, which the error index explains. */
+            /** @description The stable code, which the index of errors explains. */
             code: string;
-            /** @description What is wrong here. */
+            /** @description The cause of this error. */
             detail: string;
-            /** @description What to do. */
+            /** @description The remedy. */
             hint?: string | null;
             /**
              * Format: int32
-             * @description The status of HTTP.
+             * @description The HTTP status.
              */
             status: number;
-            /** @description The status of HTTP in words. */
+            /** @description The HTTP status in words. */
             title: string;
             /** @description Names the kind of error: `urn:vertifleet:` and the code. */
             type: string;
         };
-        /** @description What a policy proposes for an aircraft. */
+        /** @description A policy's proposal for an aircraft. */
         Proposal: {
             /** @description The aircraft. */
             aircraft: string;
             /**
-             * @description Every vertiport, in the order of the day: what flying there would bring, and why it is not
-             *     possible where it is not.
+             * @description Every vertiport, in the order of the day: the result of flying there, or the reason why that
+             *     is not possible.
              */
             alternatives: components["schemas"]["Alternative"][];
-            /** @description Where it stands. */
+            /** @description The vertiport where it stands. */
             at: string;
             /** @description The policy that decided. */
             policy: string;
@@ -1413,7 +1412,7 @@ export interface components {
             time: components["schemas"]["Moment"];
             /** @description The vertiport to fly to; its own means hold. */
             to: string;
-            /** @description The policy that was asked and was not ready in time, if another decided for it. */
+            /** @description The requested policy, if it was not ready in time and another decided for it. */
             too_late?: string | null;
             /**
              * Format: int64
@@ -1427,21 +1426,21 @@ export interface components {
         ReplayedDay: {
             /** @description The name of its scenario. */
             name: string;
-            /** @description What each policy did. */
+            /** @description The day as each policy played it. */
             plays: components["schemas"]["Play"][];
             /** @description The scenario, as its file has it. */
             scenario: Record<string, never>;
         };
         /**
-         * @description What a token permits. Each role permits what those before it do.
+         * @description The role of a token. Each role includes the ones before it.
          * @enum {string}
          */
         Role: "read" | "dispatch" | "admin";
         /** @description Routes that close and open together. */
         RouteNames: {
-            /** @description Vertiport that flights leave. */
+            /** @description The vertiport of departure. */
             from: string;
-            /** @description Vertiport that flights fly to. */
+            /** @description The vertiport of destination. */
             to: string;
         } | {
             /** @description The vertiport. */
@@ -1452,11 +1451,11 @@ export interface components {
          * @enum {string}
          */
         RuleName: "out_of_range" | "no_corridor" | "closed" | "no_stand_free";
-        /** @description What the service is, and what the sender may do. */
+        /** @description The properties of the service, and the rights of the sender. */
         ServiceInfo: {
             /** @description The policy that decides on a day if none is named. */
             policy: string;
-            /** @description What it permits: `read`, `dispatch` or `admin`. */
+            /** @description The role of the token: `read`, `dispatch` or `admin`. */
             role: components["schemas"]["Role"];
             /** @description The name of the token that the request came with; null without tokens. */
             token?: string | null;
@@ -1464,24 +1463,24 @@ export interface components {
             version: string;
         };
         /**
-         * @description Whose days are played. No day belongs to both.
+         * @description The purpose of days. No day has both.
          * @enum {string}
          */
         Split: "comparison" | "validation";
         /**
          * Format: int32
-         * @description A number of stands, or of chargers where they are counted apart.
+         * @description A number of stands, or of chargers if they are counted separately.
          */
         StandCount: number;
-        /** @description A study: what it was asked for, how far it is, and what came out. */
+        /** @description A study: its request, its progress and its result. */
         StudyInfo: {
-            /** @description Whether every day gets an upper bound. */
+            /** @description Whether an upper bound is proven for every day. */
             bounds: boolean;
-            /** @description The command that plays the same study without the service. */
+            /** @description The command that runs the same study without the service. */
             command: string;
             /**
              * Format: int64
-             * @description When it was asked for, milliseconds of the Unix clock.
+             * @description When it was requested, milliseconds of the Unix clock.
              */
             created_ms: number;
             /**
@@ -1508,16 +1507,16 @@ export interface components {
              * @description The seed of its first day, or its number among the validation days.
              */
             seed: number;
-            /** @description Whose days they are. */
+            /** @description The purpose of its days. */
             split: components["schemas"]["Split"];
-            /** @description How far it is. */
+            /** @description Its state. */
             state: components["schemas"]["StudyState"];
             /**
              * Format: double
              * @description How long it played, seconds, once it has finished.
              */
             took_s?: number | null;
-            /** @description What is allowed but hardly meant. */
+            /** @description Settings that are allowed but probably not intended. */
             warnings: string[];
         };
         /** @description All studies. */
@@ -1525,22 +1524,22 @@ export interface components {
             /** @description The latest first, without results. */
             studies: components["schemas"]["StudyInfo"][];
         };
-        /** @description How far a study has come. */
+        /** @description The progress of a study. */
         StudyProgress: {
             /** @description The policy that plays, or `bounds` while days are bounded; absent while days are drawn. */
             doing?: string | null;
             /**
              * Format: double
-             * @description How much longer it is likely to play, seconds: the rest of this policy as quick as its days
-             *     so far, the others as quick as those before them on the mean. Absent until a day has been
-             *     played.
+             * @description Expected remaining time, seconds. It assumes that the rest of this policy takes as long per
+             *     day as its days so far, and the others as long as the mean of those before. Absent until a
+             *     day has been played.
              */
             left_s?: number | null;
-            /** @description What came out for the policies that have played all their days. */
+            /** @description The results of the policies that have played all their days. */
             played: components["schemas"]["PlayedPolicy"][];
             /**
              * Format: double
-             * @description The share of all that is to be played that has been, 0 to 1; every policy counts the same.
+             * @description The share of the work that is done, 0 to 1; every policy counts the same.
              */
             share: number;
         };
@@ -1549,27 +1548,27 @@ export interface components {
             /** @description The days. */
             days: components["schemas"]["ReplayedDay"][];
         };
-        /** @description What came out of a study. Amounts and counts are means a day. */
+        /** @description The result of a study. Amounts and counts are means per day. */
         StudyResult: {
             /**
              * Format: int64
-             * @description The seed of the first day; the others follow one by one.
+             * @description The seed of the first day; the others have the following seeds.
              */
             first_seed: number;
-            /** @description Every policy, in the order in which they were asked for. */
+            /** @description Every policy, in the order of the request. */
             policies: components["schemas"]["PolicyResult"][];
             /** @description The version of the program that played it. */
             program_version: string;
             upper_bound_usd?: components["schemas"]["Estimate"] | null;
         };
         /**
-         * @description How far a study is.
+         * @description The state of a study.
          * @enum {string}
          */
         StudyState: "waiting" | "playing" | "finished" | "failed";
-        /** @description What came of events. */
+        /** @description The result of appending events. */
         Taken: {
-            /** @description What people should look at. */
+            /** @description Notices for people. */
             notices: string[][];
             /**
              * Format: int64
@@ -1585,26 +1584,26 @@ export interface components {
              * @description The number of its event.
              */
             seq: number;
-            /** @description Where the aircraft flies; its own vertiport means hold. */
+            /** @description The destination of the aircraft; its own vertiport means hold. */
             to: string;
         };
-        /** @description An event as it was taken. */
+        /** @description A stored event. */
         TakenEvent: {
-            /** @description Who sent it. */
+            /** @description The name of the sender's token. */
             actor: string;
             /**
              * Format: int64
-             * @description When it was taken, milliseconds of the Unix clock.
+             * @description When the service stored it, milliseconds of the Unix clock.
              */
             at_ms: number;
             /** @description The event. */
             event: components["schemas"]["Event"];
             /**
-             * @description Its number with a sum over the log up to it. Sent as `Last-Event-ID`, it makes sure that a
-             *     stream goes on in the same log.
+             * @description Its number with a checksum over the log up to it. Sent as `Last-Event-ID`, it ensures that a
+             *     stream continues in the same log.
              */
             mark: string;
-            /** @description What people should look at. */
+            /** @description Notices for people. */
             notices: string[];
             /**
              * Format: int64
@@ -1613,7 +1612,7 @@ export interface components {
             seq: number;
         };
         /**
-         * @description How times are written in an answer.
+         * @description The format of times in an answer.
          * @enum {string}
          */
         Times: "clock" | "iso";
@@ -1641,7 +1640,7 @@ export interface components {
         VertiportInfo: {
             /**
              * Format: int32
-             * @description Its chargers, where they are counted apart from stands.
+             * @description Its chargers, if they are counted separately from stands.
              */
             chargers?: number | null;
             /** @description Its id. */
@@ -1680,12 +1679,12 @@ export interface components {
             id: string;
             /**
              * Format: int32
-             * @description Its stands, or its chargers where they are counted apart.
+             * @description Its stands, or its chargers if they are counted separately.
              */
             stands: number;
             /**
              * Format: int32
-             * @description Aircraft that take them, standing there or on their way.
+             * @description Aircraft that occupy them, standing there or on their way.
              */
             taken: number;
         };
@@ -1694,9 +1693,9 @@ export interface components {
          * @description The bytes of a weight file.
          */
         Weights: string;
-        /** @description What a weight file is. */
+        /** @description The properties of a weight file. */
         WeightsInfo: {
-            /** @description What decides by the weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`. */
+            /** @description The kind of the weights: `gcaps-x`, `gcaps-full`, `mlp-full`, `gcaps` or `mlp`. */
             kind: string;
             /** @description The network on whose days the weights were trained. */
             trained_on: string;
@@ -1705,17 +1704,17 @@ export interface components {
             /** @description SHA-256 of the file. */
             weights_sha256: string;
         };
-        /** @description A day as it might be. */
+        /** @description A changed day. */
         WhatIf: {
-            /** @description Aircraft that the fleet would have had since the morning. */
+            /** @description Additional aircraft of the fleet from the morning on. */
             aircraft?: components["schemas"]["MoreAircraft"][];
-            /** @description Events that might happen now, in their order. */
+            /** @description Events that might happen now, in order. */
             events?: components["schemas"]["Event"][];
             /** @description The policy that would decide; without it, the day's. */
             policy?: string | null;
             /**
-             * @description Stands (or chargers where they are counted apart) that vertiports would have had since the
-             *     morning.
+             * @description Numbers of stands (or of chargers if they are counted separately) of vertiports from the
+             *     morning on.
              */
             stands?: {
                 [key: string]: components["schemas"]["StandCount"];
@@ -1739,7 +1738,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -1748,7 +1747,7 @@ export interface operations {
                     "text/plain": string;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1768,7 +1767,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -1777,7 +1776,7 @@ export interface operations {
                     "application/openmetrics-text": string;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1797,7 +1796,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -1806,7 +1805,7 @@ export interface operations {
                     "application/json": Record<string, never>;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1826,7 +1825,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -1835,7 +1834,7 @@ export interface operations {
                     "text/plain": string;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1855,7 +1854,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -1864,7 +1863,7 @@ export interface operations {
                     "application/json": components["schemas"]["ServiceInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1878,13 +1877,13 @@ export interface operations {
     list_days: {
         parameters: {
             query?: {
-                /** @description The cursor that an earlier page ended with. */
+                /** @description The cursor at the end of an earlier page. */
                 after?: string;
                 /** @description The number of entries, at most 1,000; without it, 100. */
                 limit?: number;
                 /**
-                 * @description Whether each day that is not archived comes with how far it is. A day that has not been used
-                 *     for long is read for it.
+                 * @description Whether each day that is not archived comes with its progress. The service reads a day that
+                 *     has not been used for long from the store for this.
                  */
                 progress?: boolean;
             };
@@ -1894,7 +1893,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -1903,7 +1902,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayList"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1930,7 +1929,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             201: {
                 headers: {
                     /** @description The number of the event that the day is at, in quotes */
@@ -1941,7 +1940,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1963,7 +1962,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     /** @description The number of the event that the day is at, in quotes */
@@ -1974,7 +1973,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -1989,7 +1988,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description The number of the event that the day must be at (an `ETag`); if it has gone on, nothing happens (412). */
+                /** @description The number of the event that the day must be at (an `ETag`); if it is at a later one, nothing changes (412). */
                 "If-Match"?: string;
             };
             path: {
@@ -1999,14 +1998,14 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             204: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2022,10 +2021,10 @@ export interface operations {
             query?: {
                 /** @description The policy; without it, the day's. */
                 policy?: string;
-                /** @description The time of the decision; without it, or before what has happened, now. */
+                /** @description The time of the decision; without it, or if it is in the past, now. */
                 time?: string;
                 /**
-                 * @description Milliseconds within which an answer is needed. If the policy is not ready then, a faster one
+                 * @description Time limit of the answer, milliseconds. If the policy is not ready then, a faster one
                  *     answers.
                  */
                 deadline_ms?: number;
@@ -2041,7 +2040,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     /** @description The number of the event that the day is at, in quotes */
@@ -2052,7 +2051,7 @@ export interface operations {
                     "application/json": components["schemas"]["Proposal"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2067,7 +2066,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description The number of the event that the day must be at (an `ETag`); if it has gone on, nothing happens (412). */
+                /** @description The number of the event that the day must be at (an `ETag`); if it is at a later one, nothing changes (412). */
                 "If-Match"?: string;
             };
             path: {
@@ -2077,14 +2076,14 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             204: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2101,7 +2100,7 @@ export interface operations {
             header?: {
                 /** @description The request is carried out once for each key, however often it is sent. */
                 "Idempotency-Key"?: string;
-                /** @description The number of the event that the day must be at (an `ETag`); if it has gone on, nothing happens (412). */
+                /** @description The number of the event that the day must be at (an `ETag`); if it is at a later one, nothing changes (412). */
                 "If-Match"?: string;
             };
             path: {
@@ -2115,7 +2114,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             201: {
                 headers: {
                     /** @description The number of the event that the day is at, in quotes */
@@ -2126,7 +2125,7 @@ export interface operations {
                     "application/json": components["schemas"]["TakenDecision"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2140,7 +2139,7 @@ export interface operations {
     day_demand: {
         parameters: {
             query?: {
-                /** @description The beginning of a demand period; without it, the present one. */
+                /** @description The beginning of a demand period; without it, the current one. */
                 period?: string;
                 /** @description How times are written in the answer. */
                 times?: components["schemas"]["Times"];
@@ -2153,7 +2152,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     /** @description The number of the event that the day is at, in quotes */
@@ -2164,7 +2163,7 @@ export interface operations {
                     "application/json": components["schemas"]["PeriodDemand"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2178,12 +2177,12 @@ export interface operations {
     list_events: {
         parameters: {
             query?: {
-                /**
-                 * @description Events after this number. If the day has no event of this number, that is answered by 404
-                 *     (V602).
-                 */
+                /** @description Events after this number. If the day has no event of this number, the answer is 404 (V602). */
                 after?: number;
-                /** @description Their number, at most 10,000; without it, 1,000. There are fewer where they are long. */
+                /**
+                 * @description Largest number of events, at most 10,000; without it, 1,000. A page has fewer if they are
+                 *     long.
+                 */
                 limit?: number;
                 /** @description How times are written in the answer. */
                 times?: components["schemas"]["Times"];
@@ -2196,7 +2195,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2205,7 +2204,7 @@ export interface operations {
                     "application/json": components["schemas"]["EventList"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2222,7 +2221,7 @@ export interface operations {
             header?: {
                 /** @description The request is carried out once for each key, however often it is sent. */
                 "Idempotency-Key"?: string;
-                /** @description The number of the event that the day must be at (an `ETag`); if it has gone on, nothing happens (412). */
+                /** @description The number of the event that the day must be at (an `ETag`); if it is at a later one, nothing changes (412). */
                 "If-Match"?: string;
             };
             path: {
@@ -2236,7 +2235,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             201: {
                 headers: {
                     /** @description The number of the event that the day is at, in quotes */
@@ -2247,7 +2246,7 @@ export interface operations {
                     "application/json": components["schemas"]["Taken"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2272,7 +2271,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     /** @description The number of the event that the day is at, in quotes */
@@ -2283,7 +2282,7 @@ export interface operations {
                     "application/json": components["schemas"]["Ledger"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2300,9 +2299,8 @@ export interface operations {
                 /** @description The policy that decides from now on; without it, the day's. */
                 policy?: string;
                 /**
-                 * @description The number of the event after which the outlook is asked for: 0 asks for the plan of the
-                 *     morning. Without it, the latest. If the day has no such event, that is answered by 404
-                 *     (V602).
+                 * @description The number of the event after which the outlook begins: 0 returns the plan of the morning.
+                 *     Without it, the latest. If the day has no such event, the answer is 404 (V602).
                  */
                 seq?: number;
                 /** @description How times are written in the answer. */
@@ -2316,7 +2314,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     /** @description The number of the event that the day is at, in quotes */
@@ -2327,7 +2325,7 @@ export interface operations {
                     "application/json": components["schemas"]["Outlook"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2349,7 +2347,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2358,7 +2356,7 @@ export interface operations {
                     "application/json": Record<string, never>;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2373,8 +2371,8 @@ export interface operations {
         parameters: {
             query?: {
                 /**
-                 * @description The number of the event after which the state is asked for; without it, the latest. If the
-                 *     day has no such event, that is answered by 404 (V602).
+                 * @description The number of the event after which the state is read; without it, the latest. If the day
+                 *     has no such event, the answer is 404 (V602).
                  */
                 seq?: number;
                 /** @description How times are written in the answer. */
@@ -2388,7 +2386,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     /** @description The number of the event that the day is at, in quotes */
@@ -2399,7 +2397,7 @@ export interface operations {
                     "application/json": components["schemas"]["DayState"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2422,7 +2420,7 @@ export interface operations {
                 times?: components["schemas"]["Times"];
             };
             header?: {
-                /** @description The number of the event that the reader saw last, or its `mark`; it takes precedence over `after`. If the log has no event with this mark, the answer is 404 (V631). */
+                /** @description The number of the event that the reader received last, or its `mark`; it takes precedence over `after`. If the log has no event with this mark, the answer is 404 (V631). */
                 "Last-Event-ID"?: string;
             };
             path: {
@@ -2432,7 +2430,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2441,7 +2439,7 @@ export interface operations {
                     "text/event-stream": components["schemas"]["TakenEvent"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2463,7 +2461,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2472,7 +2470,7 @@ export interface operations {
                     "text/csv": unknown;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2487,7 +2485,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                /** @description The number of the event that the day must be at (an `ETag`); if it has gone on, nothing happens (412). */
+                /** @description The number of the event that the day must be at (an `ETag`); if it is at a later one, nothing changes (412). */
                 "If-Match"?: string;
             };
             path: {
@@ -2497,14 +2495,14 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             204: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2533,7 +2531,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2542,7 +2540,7 @@ export interface operations {
                     "application/json": components["schemas"]["Comparison"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2562,7 +2560,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2571,7 +2569,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkList"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2595,7 +2593,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2604,7 +2602,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2626,7 +2624,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2635,7 +2633,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2661,7 +2659,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2670,7 +2668,7 @@ export interface operations {
                     "application/json": components["schemas"]["NetworkInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2692,14 +2690,14 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             204: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2719,7 +2717,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2728,7 +2726,7 @@ export interface operations {
                     "application/json": components["schemas"]["PolicyList"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2752,7 +2750,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2761,7 +2759,7 @@ export interface operations {
                     "application/json": components["schemas"]["WeightsInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2783,7 +2781,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2792,7 +2790,7 @@ export interface operations {
                     "application/json": components["schemas"]["PolicyInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2818,7 +2816,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2827,7 +2825,7 @@ export interface operations {
                     "application/json": components["schemas"]["PolicyInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2849,14 +2847,14 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             204: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2876,7 +2874,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2885,7 +2883,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyList"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2912,7 +2910,7 @@ export interface operations {
             };
         };
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             201: {
                 headers: {
                     [name: string]: unknown;
@@ -2921,7 +2919,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2943,7 +2941,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -2952,7 +2950,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyInfo"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -2974,14 +2972,14 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             204: {
                 headers: {
                     [name: string]: unknown;
                 };
                 content?: never;
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -3003,7 +3001,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -3012,7 +3010,7 @@ export interface operations {
                     "application/json": components["schemas"]["StudyReplay"];
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;
@@ -3034,7 +3032,7 @@ export interface operations {
         };
         requestBody?: never;
         responses: {
-            /** @description As it was asked */
+            /** @description The request was carried out */
             200: {
                 headers: {
                     [name: string]: unknown;
@@ -3043,7 +3041,7 @@ export interface operations {
                     "text/html": string;
                 };
             };
-            /** @description What is wrong (RFC 9457) */
+            /** @description The error (RFC 9457) */
             default: {
                 headers: {
                     [name: string]: unknown;

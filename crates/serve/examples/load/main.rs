@@ -2,11 +2,11 @@
 //!
 //!     cargo run --release -p vertifleet-serve --example load -- http://127.0.0.1:8080 decisions 32 20
 //!
-//! `decisions` operates days of `paper`, each client its own, one after the other, with `gcaps-x`
-//! (or with the policy that follows the seconds); `events` books passengers, each client on its own
-//! day, one at a time; `streams` sends 500 events a second to one day, which this many clients
-//! read, and measures the time from sending an event to each reader. The last two numbers are the
-//! clients and the seconds. Only addresses of this machine are loaded.
+//! `decisions` operates days of `paper`, one after the other in each client, with `gcaps-x` (or
+//! with the policy that follows the seconds). `events` books passengers, one at a time, with a
+//! separate day for each client. `streams` sends 500 events a second to one day, which this number
+//! of clients read, and measures the time from sending an event to each reader. The last two
+//! numbers are the clients and the seconds. Only addresses of this machine are loaded.
 
 mod streams;
 
@@ -25,7 +25,7 @@ struct Load {
     until: Instant,
     /// The time that each request took, milliseconds.
     took_ms: Mutex<Vec<f64>>,
-    /// Events besides the requests that are measured.
+    /// Events in addition to the measured requests.
     others: Mutex<u64>,
 }
 

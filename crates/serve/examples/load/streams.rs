@@ -1,4 +1,4 @@
-//! Many readers of one day's stream, and how long events take to reach them.
+//! Many readers of one day's stream, and the delay of events to them.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,7 +10,7 @@ use tokio::net::TcpStream;
 
 /// Time from one event to the next.
 const PACE: Duration = Duration::from_millis(2);
-/// Clients that send events, by turns.
+/// Clients that send events, in turn.
 const SENDERS: u64 = 16;
 /// Deliveries are counted by their time in milliseconds; the last count is of longer ones.
 const COUNTS: usize = 1_000;

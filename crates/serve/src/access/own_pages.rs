@@ -1,7 +1,7 @@
 //! Without tokens the service trusts every program on its machine, and browsers there show pages of
-//! the whole world. Such a page can send requests to this machine, and by a name that
-//! leads here it could even read the answers. So requests must name this machine, and those of a
-//! page must come from a page of this machine.
+//! the whole world. Such a page can send requests to this machine. With a domain name that resolves
+//! to this machine, it could even read the answers. So requests must name this machine, and those
+//! of a page must come from a page of this machine.
 
 use std::net::IpAddr;
 
@@ -9,7 +9,7 @@ use axum::http::{HeaderMap, Uri, header};
 
 use crate::error::Error;
 
-/// Checks a request that no token vouches for. `host` is the host that it names.
+/// Checks a request without a token. `host` is the host that it names.
 ///
 /// # Errors
 /// Returns [`Error::ForeignPage`].
@@ -26,7 +26,7 @@ pub(super) fn check(host: &str, headers: &HeaderMap) -> Result<(), Error> {
     Err(Error::ForeignPage { what: "comes from a page of", named: shortened(origin) })
 }
 
-/// Whether a host, with or without a port, is this machine wherever it is asked.
+/// Whether a host, with or without a port, names this machine from every machine.
 fn is_this_machine(host: &str) -> bool {
     let name = match host.rsplit_once(':') {
         Some((name, port)) if port.bytes().all(|byte| byte.is_ascii_digit()) => name,

@@ -1,4 +1,4 @@
-//! Answers: how they are written, and what stands in their headers.
+//! Answers: their format and their headers.
 
 use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -9,7 +9,7 @@ use crate::day_cell::DayCell;
 use crate::error::Error;
 use crate::moment::by_calendar;
 
-/// How times are written in an answer.
+/// The format of times in an answer.
 #[derive(Debug, Clone, Copy, Default, Deserialize, ToSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Times {
@@ -21,10 +21,10 @@ pub(crate) enum Times {
 }
 
 impl Times {
-    /// Writes an answer about a day.
+    /// Formats an answer about a day.
     ///
     /// # Errors
-    /// Returns [`Error::BadRequest`] if dates are asked for and the day has none, and the errors of
+    /// Returns [`Error::BadRequest`] if dates are requested and the day has none, and the errors of
     /// `write`.
     pub(super) fn of<T>(
         self,
@@ -52,10 +52,10 @@ impl Times {
         self.of(day, || Ok(at_event(StatusCode::OK, seq, answer)))
     }
 
-    /// Checks that times can be written like this.
+    /// Checks that times can be written in this format.
     ///
     /// # Errors
-    /// Returns [`Error::BadRequest`] if dates are asked for and the day has none.
+    /// Returns [`Error::BadRequest`] if dates are requested and the day has none.
     pub(super) fn check(self, day: &DayCell) -> Result<(), Error> {
         match (self, day.calendar()) {
             (Self::Iso, None) => {
@@ -67,7 +67,7 @@ impl Times {
     }
 }
 
-/// Which times are asked for.
+/// The requested format of times.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
@@ -83,7 +83,7 @@ pub(super) fn json(status: StatusCode, answer: &impl Serialize) -> Response {
     written(status, body)
 }
 
-/// An answer that is JSON already.
+/// An answer that is already JSON.
 pub(super) fn written(status: StatusCode, body: String) -> Response {
     (status, [(header::CONTENT_TYPE, "application/json")], body).into_response()
 }
@@ -93,7 +93,7 @@ pub(super) fn at_event(status: StatusCode, seq: u64, answer: &impl Serialize) ->
     tagged(json(status, answer), seq)
 }
 
-/// The answer to a write that was carried out before, as it was given then.
+/// The stored answer to a write that was carried out before.
 pub(super) fn again(body: String) -> Response {
     #[derive(Deserialize)]
     struct Event {

@@ -1,4 +1,4 @@
-//! Days: made, listed, read, archived and opened again, deleted.
+//! Creates, lists, reads, archives, reopens and deletes days.
 
 use std::sync::Arc;
 
@@ -34,7 +34,7 @@ pub(super) const DEFAULT_POLICY: &str = "gcaps-x";
 pub(crate) struct DayInfo {
     /// Its id.
     id: String,
-    /// What people call it.
+    /// Its display name.
     name: String,
     /// Its date, if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -46,26 +46,26 @@ pub(crate) struct DayInfo {
     created_ms: i64,
     /// Whether it is closed to writes.
     archived: bool,
-    /// The policy that decides when none is asked for.
+    /// The default policy of its decisions.
     policy: String,
-    /// The number of its events, for a day that was asked for by its id.
+    /// The number of its events, for a request that names the day.
     #[serde(skip_serializing_if = "Option::is_none")]
     seq: Option<u64>,
-    /// How far it is, for days that are listed with their progress and are not archived.
+    /// Its progress, for days that are listed with it and are not archived.
     #[serde(skip_serializing_if = "Option::is_none")]
     progress: Option<DayProgress>,
 }
 
-/// How far a day is.
+/// The progress of a day.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct DayProgress {
-    /// The latest time that it has heard of.
+    /// The latest time that was reported.
     now: Moment,
     /// Whether nothing is left to decide and every aircraft is on the ground.
     is_over: bool,
     /// Aircraft that wait for a decision.
     waiting: usize,
-    /// Profit of the flights that have been sent off, less what the fleet costs all day; dollars.
+    /// Profit of the flights that have been dispatched, less the fixed costs of the fleet; dollars.
     profit_usd: f64,
 }
 
@@ -78,29 +78,29 @@ pub(crate) struct DayList {
     next: Option<String>,
 }
 
-/// Which days are listed, and with what.
+/// The query of a list of days.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Listed {
-    /// The cursor that an earlier page ended with.
+    /// The cursor at the end of an earlier page.
     #[serde(default)]
     after: String,
     /// The number of entries, at most 1,000; without it, 100.
     #[param(inline)]
     limit: Option<PageSize<1_000>>,
-    /// Whether each day that is not archived comes with how far it is. A day that has not been used
-    /// for long is read for it.
+    /// Whether each day that is not archived comes with its progress. The service reads a day that
+    /// has not been used for long from the store for this.
     #[serde(default)]
     progress: bool,
 }
 
-/// What is known of a day.
+/// The state of a day.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct DayState {
     /// The number of the latest event.
     seq: u64,
-    /// The latest time that the day has heard of.
+    /// The latest time that was reported.
     now: Moment,
     /// Every aircraft.
     aircraft: Vec<AircraftState>,
@@ -109,7 +109,7 @@ pub(crate) struct DayState {
     /// The account so far.
     #[schema(value_type = Totals)]
     totals: DayTotals,
-    /// What people should look at.
+    /// Notices for people.
     notices: Vec<NoticeState>,
 }
 
@@ -118,7 +118,7 @@ pub(crate) struct DayState {
 pub(crate) struct AircraftState {
     /// Its id.
     id: String,
-    /// What it does.
+    /// Its current phase.
     phase: PhaseName,
     /// The vertiport where it stands or will land.
     place: String,
@@ -132,17 +132,17 @@ pub(crate) struct AircraftState {
     out_of_service: bool,
     /// When it is expected back in service, if that is known.
     out_until: Option<Moment>,
-    /// The flight that it has been sent off on, until it has landed.
+    /// The flight that it was dispatched on, until it has landed.
     flight: Option<FlightState>,
 }
 
-/// What an aircraft does.
+/// The phase of an aircraft.
 #[derive(Debug, Clone, Copy, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum PhaseName {
     /// It stands at its vertiport and charges, is ready or holds.
     Standing,
-    /// It has been sent off and has not departed.
+    /// It has been dispatched and has not departed.
     SentOff,
     /// It is in the air.
     InTheAir,
@@ -151,11 +151,11 @@ pub(crate) enum PhaseName {
 /// A flight that has not landed.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct FlightState {
-    /// Where it leaves.
+    /// The vertiport of departure.
     from: String,
-    /// Where it flies to.
+    /// The vertiport of destination.
     to: String,
-    /// When it was decided.
+    /// When the decision was taken.
     decided: Moment,
     /// Passengers on board.
     passengers: u16,
@@ -164,7 +164,7 @@ pub(crate) struct FlightState {
 /// A route that is closed to new flights.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct ClosedRoute {
-    /// Where it leads.
+    /// Its destination.
     to: String,
     /// When it opens, if that is known.
     until: Option<Moment>,
@@ -175,20 +175,20 @@ pub(crate) struct ClosedRoute {
 pub(crate) struct VertiportState {
     /// Its id.
     id: String,
-    /// Its stands, or its chargers where they are counted apart.
+    /// Its stands, or its chargers if they are counted separately.
     stands: u16,
-    /// Aircraft that take them, standing there or on their way.
+    /// Aircraft that occupy them, standing there or on their way.
     taken: u16,
     /// The routes from here that are closed.
     closed: Vec<ClosedRoute>,
 }
 
-/// Something that people should look at.
+/// A notice for people.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct NoticeState {
-    /// The event that it came with; null if it holds now, whatever it came from.
+    /// The event that it came with; null if it describes the current state.
     seq: Option<u64>,
-    /// What it is.
+    /// The notice in words.
     text: String,
 }
 
@@ -230,8 +230,8 @@ pub(super) async fn list(
     Ok(json(StatusCode::OK, &DayList { days, next }))
 }
 
-/// How far a day is; `None` if it was deleted meanwhile, or if it is damaged, which its own address
-/// answers.
+/// The progress of a day. `None` if the day was deleted in the meantime, or is damaged; a request
+/// for the day itself then reports the damage.
 async fn progress_of(service: &Service, id: &str) -> Result<Option<DayProgress>, Error> {
     let day = match service.days.get(id).await {
         Err(Error::NotFound { .. } | Error::BadData { .. }) => return Ok(None),
@@ -289,7 +289,7 @@ pub(super) async fn create(
     Ok(answer)
 }
 
-/// An id that sorts by the time at which it was made.
+/// An id that sorts by the time of creation.
 pub(super) fn new_id() -> String {
     let random = std::hash::BuildHasher::hash_one(&std::hash::RandomState::new(), now_ms());
     format!("{:011x}{:08x}", now_ms(), random >> 32)
@@ -307,7 +307,7 @@ pub(super) async fn read(
     Ok(at_event(StatusCode::OK, seq, &DayInfo::of(&day.stored, Some(seq))))
 }
 
-/// Closes a day to writes. It can still be read, and be opened again.
+/// Closes a day to writes. It can still be read, and reopened.
 #[utoipa::path(operation_id = "archive_day", post, path = "/v1/days/{day}/archive", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn archive(
     State(service): State<Arc<Service>>,
@@ -318,7 +318,7 @@ pub(super) async fn archive(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// Opens a day again that was archived.
+/// Reopens a day that was archived.
 #[utoipa::path(operation_id = "unarchive_day", post, path = "/v1/days/{day}/unarchive", tag = "days", params(("day" = String, Path)), responses((status = 204)))]
 pub(super) async fn unarchive(
     State(service): State<Arc<Service>>,
@@ -340,13 +340,13 @@ pub(super) async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// The state to be read.
+/// The query of a state.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct At {
-    /// The number of the event after which the state is asked for; without it, the latest. If the
-    /// day has no such event, that is answered by 404 (V602).
+    /// The number of the event after which the state is read; without it, the latest. If the day
+    /// has no such event, the answer is 404 (V602).
     #[param(inline)]
     seq: Option<EventNumber>,
     /// How times are written in the answer.
@@ -354,7 +354,7 @@ pub(crate) struct At {
     times: Times,
 }
 
-/// What is known of a day, now or after any of its events.
+/// The state of a day, now or after any of its events.
 #[utoipa::path(operation_id = "day_state", get, path = "/v1/days/{day}/state", tag = "days", params(("day" = String, Path), At), responses((status = 200, body = DayState)))]
 pub(super) async fn state(
     State(service): State<Arc<Service>>,
@@ -370,7 +370,7 @@ pub(super) async fn state(
     at.times.answer(&day, state.seq, &state).await
 }
 
-/// The routes from each vertiport that are closed, with the time at which each opens.
+/// The closed routes from each vertiport, with the time at which each opens.
 fn closed(live: &mut LiveDay) -> Vec<Vec<(VertiportIx, Option<Moment>)>> {
     let all = VertiportIx::all(live.scenario().vertiports.len());
     let masks: Vec<_> = all.clone().map(|from| live.view().closed(from)).collect();
@@ -427,7 +427,7 @@ impl DayState {
     }
 }
 
-/// The scenario that the day began with, as a scenario file has it.
+/// The scenario at the beginning of the day, in the format of scenario files.
 #[utoipa::path(operation_id = "day_scenario", get, path = "/v1/days/{day}/scenario", tag = "days", params(("day" = String, Path)), responses((status = 200, body = Object)))]
 pub(super) async fn scenario(
     State(service): State<Arc<Service>>,

@@ -1,4 +1,4 @@
-//! Decisions: proposed, and taken.
+//! Proposes and takes decisions.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -23,23 +23,23 @@ use crate::moment::{Moment, by_calendar};
 use crate::service::Service;
 use crate::taken_event::TakenEvent;
 
-/// How often a policy is asked for one decision if events come in between.
+/// Largest number of evaluations for one decision while events arrive in between.
 const TRIES: u32 = 5;
-/// How long the service waits for the proposal of a policy that a person overrules.
+/// Time limit for the proposal of a policy that a person overrules.
 const OVERRULED_TIMEOUT: Duration = Duration::from_millis(100);
-/// Decides when the policy that was asked is late.
+/// The policy that decides when the requested one is late.
 pub(super) const QUICK_POLICY: &str = "greedy";
 
-/// How a decision is asked for.
+/// The query of a decision.
 #[derive(Debug, Clone, Default, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DecisionQuery {
     /// The policy; without it, the day's.
     policy: Option<String>,
-    /// The time of the decision; without it, or before what has happened, now.
+    /// The time of the decision; without it, or if it is in the past, now.
     time: Option<String>,
-    /// Milliseconds within which an answer is needed. If the policy is not ready then, a faster one
+    /// Time limit of the answer, milliseconds. If the policy is not ready then, a faster one
     /// answers.
     #[param(format = Int64, maximum = 4_294_967_295u32)]
     deadline_ms: Option<u32>,
@@ -48,7 +48,7 @@ pub(crate) struct DecisionQuery {
     times: Times,
 }
 
-/// How a policy is asked.
+/// The inputs of a policy's evaluation.
 #[derive(Debug, Clone)]
 struct Question {
     /// The name of the caller's token.
@@ -73,9 +73,9 @@ pub(crate) struct NewDecision {
     reason: Option<String>,
     /// The policy; without it, the day's.
     policy: Option<String>,
-    /// The time of the decision; without it, or before what has happened, now.
+    /// The time of the decision; without it, or if it is in the past, now.
     time: Option<Moment>,
-    /// Milliseconds within which the policy must answer; if it does not, a faster one decides.
+    /// Time limit of the policy, milliseconds. If it is not ready then, a faster one decides.
     #[schema(format = Int64, maximum = 4_294_967_295u32)]
     deadline_ms: Option<u32>,
 }
@@ -85,9 +85,9 @@ pub(crate) struct NewDecision {
 pub(crate) struct TakenDecision {
     /// The number of its event.
     seq: u64,
-    /// Where the aircraft flies; its own vertiport means hold.
+    /// The destination of the aircraft; its own vertiport means hold.
     to: String,
-    /// What the policy proposed, with its reasons; null if a person chose.
+    /// The proposal of the policy, with its reasons; null if a person chose.
     proposal: Option<Proposal>,
 }
 
@@ -112,8 +112,8 @@ pub(super) async fn propose(
     times.answer(&day, proposal.seq, &proposal).await
 }
 
-/// Takes a decision: the day's policy chooses, or the one that is named, or a person. It is durable
-/// when the answer comes.
+/// Takes a decision: by the day's policy, by the one that is named, or by a person. It is durable
+/// before the answer is sent.
 #[utoipa::path(
     operation_id = "take_decision", post, path = "/v1/days/{day}/decisions", tag = "decisions", params(("day" = String, Path)),
     request_body = NewDecision,
@@ -146,8 +146,7 @@ async fn by_hand(
     to: String,
 ) -> Result<TakenDecision, Error> {
     let policy = policy.unwrap_or_else(|| day.stored.policy.clone());
-    // For the record only, so it must not hold a person up, and whatever goes wrong shows when the
-    // event is taken.
+    // For the record only, so it must not delay a person. An error shows when the event is applied.
     let deadline = deadline_ms.map_or(OVERRULED_TIMEOUT, |ms| Duration::from_millis(ms.into()));
     let overruled = ask(service, day, (&writer.actor, &aircraft), policy, time);
     let overruled = tokio::time::timeout(deadline, overruled).await;
@@ -159,8 +158,8 @@ async fn by_hand(
     take(service, day, writer, Event { time, what }, None).await
 }
 
-/// Takes the decision of a policy. It holds for the state that it was made for: if an event comes
-/// in between, the policy is asked again, unless the writer wanted this very state.
+/// Takes the decision of a policy. It is valid for the state that it was computed for: if an event
+/// arrives in between, the policy decides again, unless the writer required that state.
 async fn by_policy(
     service: &Service,
     day: &Arc<DayCell>,
@@ -209,7 +208,7 @@ async fn take(
     service.days.append(day, writer, vec![event], answer).await
 }
 
-/// Asks the policy, and if it is late, a quick one.
+/// Evaluates the policy, and if it is late, a quick one.
 async fn proposed(
     service: &Service,
     day: &Arc<DayCell>,
@@ -236,8 +235,8 @@ async fn proposed(
     Ok(proposal)
 }
 
-/// Asks a policy on a separate thread, since it may take a while. Nothing takes a thread while it
-/// waits for its turn, so that a client that gives up leaves no work behind that has not begun.
+/// Evaluates a policy on a separate thread, since it may take a while. A request that waits for its
+/// turn uses no thread, so a client that gives up leaves no pending work.
 async fn ask(
     service: &Service,
     day: &Arc<DayCell>,

@@ -16,20 +16,20 @@ use crate::event::PairDemand;
 use crate::moment::{Moment, by_calendar};
 use crate::service::Service;
 
-/// The demand that is asked for.
+/// The query of demand.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InPeriod {
-    /// The beginning of a demand period; without it, the present one.
+    /// The beginning of a demand period; without it, the current one.
     period: Option<String>,
     /// How times are written in the answer.
     #[serde(default)]
     times: Times,
 }
 
-/// The passengers of a demand period who still want to fly: those who wait if the period has begun,
-/// and those who are expected if it has not.
+/// The passengers of a demand period who still want to fly: waiting ones if the period has begun,
+/// and expected ones if it has not.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct PeriodDemand {
     /// The number of the latest event.

@@ -37,9 +37,9 @@ use crate::problem::Problem;
     tags(
         (name = "service", description = "The service itself"),
         (name = "days", description = "Days and their state"),
-        (name = "events", description = "What happens on a day"),
-        (name = "decisions", description = "Where an aircraft flies next, and why"),
-        (name = "outlooks", description = "How a day goes on, and what it would be otherwise"),
+        (name = "events", description = "Events of a day"),
+        (name = "decisions", description = "Decisions and their reasons"),
+        (name = "outlooks", description = "Outlooks and what-if comparisons"),
         (name = "networks", description = "Networks from which days are made"),
         (name = "policies", description = "Policies that decide"),
         (name = "studies", description = "Policies compared on many days")
@@ -52,18 +52,17 @@ pub fn openapi() -> String {
     Api::openapi().to_pretty_json().expect("plain data can be written") + "\n"
 }
 
-/// What holds for every path: errors are problem details, requests may need a token, writes may
+/// The common rules of all paths: errors are problem details, requests may need a token, writes may
 /// have a key.
 struct Everywhere;
 
 /// The paths that need no token.
 const OPEN: [&str; 2] = ["/healthz", "/readyz"];
-/// The writes that are carried out once for each key, and those that can be made for one state of
-/// the day.
+/// The writes that are carried out once for each key, and those that accept `If-Match`.
 const KEYED: [&str; 4] = ["make_day", "add_events", "take_decision", "make_study"];
 const MATCHED: [&str; 5] =
     ["add_events", "take_decision", "archive_day", "unarchive_day", "delete_day"];
-/// The answers that are about a day at an event.
+/// The answers about a day at an event.
 const TAGGED: [&str; 9] = [
     "make_day",
     "read_day",
@@ -81,7 +80,7 @@ impl Modify for Everywhere {
         let components = api.components.get_or_insert_default();
         close_events(&mut components.schemas);
         let bearer = HttpBuilder::new().scheme(HttpAuthScheme::Bearer);
-        let bearer = bearer.description(Some("A token; not needed as long as none was made."));
+        let bearer = bearer.description(Some("A token; not needed until one has been made."));
         components.add_security_scheme("token", SecurityScheme::Http(bearer.build()));
         for (path, item) in &mut api.paths.paths {
             let methods = [&mut item.get, &mut item.post, &mut item.put, &mut item.delete];
@@ -99,9 +98,9 @@ impl Modify for Everywhere {
     }
 }
 
-/// Says of events and routes that they have no other members, and of lists of events how long they
-/// are. As it is derived, an event is put together from two parts, and neither part could say so
-/// without forbidding the other.
+/// States that events and routes have no other members, and how long lists of events may be. The
+/// derived schema of an event consists of two parts, and neither could forbid other members without
+/// forbidding those of the other part.
 fn close_events(schemas: &mut BTreeMap<String, RefOr<Schema>>) {
     let (Some(RefOr::T(Schema::AllOf(parts))), Some(RefOr::T(Schema::OneOf(mut kinds)))) =
         (schemas.get("Event").cloned(), schemas.remove("EventKind"))
@@ -133,7 +132,7 @@ fn close_events(schemas: &mut BTreeMap<String, RefOr<Schema>>) {
     }
 }
 
-/// The objects of which something is one.
+/// The object schemas of the alternatives of a schema.
 fn objects(one_of: &mut OneOf) -> impl Iterator<Item = &mut Object> {
     one_of.items.iter_mut().filter_map(|item| match item {
         RefOr::T(Schema::Object(object)) => Some(object),
@@ -144,7 +143,7 @@ fn objects(one_of: &mut OneOf) -> impl Iterator<Item = &mut Object> {
 fn complete(operation: &mut Operation) {
     let problem = ContentBuilder::new().schema(Some(Ref::from_schema_name("Problem"))).build();
     let default = ResponseBuilder::new()
-        .description("What is wrong (RFC 9457)")
+        .description("The error (RFC 9457)")
         .content("application/problem+json", problem)
         .build();
     operation.responses.responses.insert("default".to_owned(), RefOr::T(default));
@@ -152,7 +151,7 @@ fn complete(operation: &mut Operation) {
         if let RefOr::T(response) = response
             && response.description.is_empty()
         {
-            "As it was asked".clone_into(&mut response.description);
+            "The request was carried out".clone_into(&mut response.description);
         }
     }
     let id = operation.operation_id.clone().unwrap_or_default();
@@ -168,11 +167,11 @@ fn complete(operation: &mut Operation) {
         );
     }
     if is(&MATCHED) {
-        let about = "The number of the event that the day must be at (an `ETag`); if it has gone on, nothing happens (412).";
+        let about = "The number of the event that the day must be at (an `ETag`); if it is at a later one, nothing changes (412).";
         add_header(operation, "If-Match", about, text().pattern(Some(TAG)));
     }
     if id == "stream_events" {
-        let about = "The number of the event that the reader saw last, or its `mark`; it takes precedence over `after`. If the \
+        let about = "The number of the event that the reader received last, or its `mark`; it takes precedence over `after`. If the \
              log has no event with this mark, the answer is 404 (V631).";
         add_header(operation, "Last-Event-ID", about, text().pattern(Some(MARK)));
     }
@@ -189,9 +188,9 @@ fn complete(operation: &mut Operation) {
     }
 }
 
-/// What numbers of events look like in headers.
+/// The pattern of an event's number in a header.
 const TAG: &str = "^\"?[0-9]{1,19}\"?$";
-/// What the number or the mark of an event looks like.
+/// The pattern of an event's number or mark.
 const MARK: &str = "^[0-9]{1,19}(-[0-9a-f]{8})?$";
 
 fn add_header(operation: &mut Operation, name: &str, about: &str, schema: ObjectBuilder) {

@@ -1,4 +1,4 @@
-//! Events of a day: taken in, and listed.
+//! Appends and lists the events of a day.
 
 use std::sync::Arc;
 
@@ -20,13 +20,13 @@ use crate::moment::by_calendar;
 use crate::service::Service;
 use crate::taken_event::TakenEvent;
 
-/// The number of events that a request may bring.
+/// Largest number of events in a request.
 pub(super) const MOST_EVENTS: usize = 1_000;
 
-/// Pages of at most this many events are read at once, without waiting for a turn.
+/// Largest page of events that is read at once, without waiting for a turn.
 const SHORT_PAGE: u32 = 250;
 
-/// One event, or several that are taken all or none.
+/// One event, or several that are applied together or not at all.
 #[derive(Debug, Serialize, ToSchema)]
 #[serde(untagged)]
 enum OneOrMore {
@@ -37,8 +37,8 @@ enum OneOrMore {
 }
 
 impl OneOrMore {
-    /// Reads a body. Which of the two it is shows in its first character, so that a message names
-    /// what is wrong inside.
+    /// Parses a body. Its first character decides between the two, so that a message names the
+    /// error inside.
     fn parse(body: &[u8]) -> Result<Self, Error> {
         match body.iter().find(|byte| !byte.is_ascii_whitespace()) {
             Some(b'[') => Self::several(body).map(Self::More),
@@ -84,12 +84,12 @@ fn too_many() -> Error {
     Error::BadRequest { rule: format!("1 to {MOST_EVENTS} events are taken at once") }
 }
 
-/// What came of events.
+/// The result of appending events.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct Taken {
     /// The number of the latest event.
     seq: u64,
-    /// What people should look at.
+    /// Notices for people.
     #[schema(value_type = Vec<Vec<String>>)]
     notices: Vec<Box<RawValue>>,
 }
@@ -112,17 +112,17 @@ pub(crate) struct EventList {
     next: Option<u64>,
 }
 
-/// Which events are asked for.
+/// The query of a list of events.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Page {
-    /// Events after this number. If the day has no event of this number, that is answered by 404
-    /// (V602).
+    /// Events after this number. If the day has no event of this number, the answer is 404 (V602).
     #[serde(default)]
     #[param(inline)]
     after: EventNumber,
-    /// Their number, at most 10,000; without it, 1,000. There are fewer where they are long.
+    /// Largest number of events, at most 10,000; without it, 1,000. A page has fewer if they are
+    /// long.
     #[param(inline)]
     limit: Option<PageSize<10_000>>,
     /// How times are written in the answer.
@@ -130,7 +130,7 @@ pub(crate) struct Page {
     times: Times,
 }
 
-/// Takes an event in, or several, all or none. They are durable when the answer comes.
+/// Applies an event, or several together or not at all. They are durable before the answer is sent.
 #[utoipa::path(
     operation_id = "add_events", post, path = "/v1/days/{day}/events", tag = "events", params(("day" = String, Path)),
     request_body = OneOrMore,

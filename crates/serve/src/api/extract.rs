@@ -19,7 +19,7 @@ use crate::access::Actor;
 use crate::error::Error;
 use crate::service::Service;
 
-/// What stands after the question mark.
+/// The query string.
 pub(super) struct Validated<T>(pub(super) T);
 
 impl<S: Send + Sync, T: DeserializeOwned> FromRequestParts<S> for Validated<T> {
@@ -36,8 +36,8 @@ impl<S: Send + Sync, T: DeserializeOwned> FromRequestParts<S> for Validated<T> {
     }
 }
 
-/// The number of an event. Beyond those that the description has, whose numbers are of 64 bits with
-/// a sign, nothing is taken.
+/// The number of an event. The description promises signed numbers of 64 bits, so larger ones are
+/// refused.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct EventNumber(pub(super) u64);
 
@@ -65,7 +65,7 @@ impl PartialSchema for EventNumber {
 
 impl ToSchema for EventNumber {}
 
-/// How many entries a page of a list has, 1 to `MOST`.
+/// The number of entries of a list's page, 1 to `MOST`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PageSize<const MOST: u32>(pub(super) u32);
 
@@ -108,16 +108,17 @@ impl<S: Send + Sync> FromRequestParts<S> for Actor {
 
 /// The longest body of most requests.
 pub(super) const SHORT: usize = 4 << 20;
-/// The longest body of a request that brings a scenario, a network or weights.
+/// Largest body of a request with a scenario, a network or weights, bytes.
 pub(super) const UPLOAD: usize = 64 << 20;
 
-/// A body of at most `MOST` bytes. Few large ones are read at once.
+/// A body of at most `MOST` bytes. Only a few large ones are read at a time.
 pub(super) struct Body<const MOST: usize = SHORT>(pub(super) Bytes);
 
 impl<const MOST: usize> FromRequest<Arc<Service>> for Body<MOST> {
     type Rejection = Error;
 
-    /// Reads the body. Once it is longer than most bodies may be, it takes a turn until it is read.
+    /// Reads the body. A body that is longer than most waits for a turn and holds it until it is
+    /// read.
     async fn from_request(request: Request, service: &Arc<Service>) -> Result<Self, Error> {
         let too_long = || Error::TooMuch { what: "bytes in such a body", most: MOST as u64 };
         let unreadable =
@@ -128,7 +129,7 @@ impl<const MOST: usize> FromRequest<Arc<Service>> for Body<MOST> {
         }
         let (mut bytes, mut turn) = (BytesMut::new(), None);
         while let Some(frame) = body.frame().await {
-            // A body may end with trailers, which mean nothing here.
+            // A body may end with trailers, which have no meaning here.
             let Ok(piece) = frame.map_err(unreadable)?.into_data() else { continue };
             if bytes.len() + piece.len() > MOST {
                 return Err(too_long());
@@ -146,7 +147,7 @@ impl<const MOST: usize> FromRequest<Arc<Service>> for Body<MOST> {
 /// The longest message about a body that cannot be read.
 const LONGEST_RULE: usize = 400;
 
-/// What is wrong with JSON, without the words of the language that this is written in.
+/// The error in some JSON, without Rust's names.
 fn in_words_of_json(message: &str) -> String {
     let mut text = message.replace(" field ", " member ");
     for (name, most) in
@@ -157,7 +158,7 @@ fn in_words_of_json(message: &str) -> String {
             &format!("expected a whole number from 0 to {most}"),
         );
     }
-    // The name of a type, and how many members it has.
+    // The name of a type, and its number of members.
     if let Some((before, after)) = text.split_once("expected struct ") {
         let rest = after.split_once(" at ").map_or("", |(_, place)| place);
         let place = if rest.is_empty() { String::new() } else { format!(" at {rest}") };
@@ -166,11 +167,11 @@ fn in_words_of_json(message: &str) -> String {
     text
 }
 
-/// Reads the JSON of a request. No body at all is the empty object.
+/// Parses the JSON of a request. An empty body is the empty object.
 pub(super) fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, Error> {
     let body = if body.is_empty() { b"{}".as_slice() } else { body };
     serde_json::from_slice(body).map_err(|error| {
-        // A message may quote what was sent, which may be long.
+        // A message may quote the request, which may be long.
         let text = in_words_of_json(&error.to_string());
         let mut rule: String = text.chars().take(LONGEST_RULE).collect();
         if rule.len() < text.len() {

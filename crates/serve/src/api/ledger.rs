@@ -17,14 +17,14 @@ use crate::moment::Moment;
 use crate::outlook::Totals;
 use crate::service::Service;
 
-/// What a day has earned and cost so far.
+/// The earnings and costs of a day so far.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct Ledger {
     /// The number of the latest event.
     seq: u64,
     /// An entry for each flight, in the order in which they were decided.
     flights: Vec<Entry>,
-    /// The sums, and what aircraft cost whether they fly or not.
+    /// The sums, including the fixed costs of aircraft.
     #[schema(value_type = Totals)]
     totals: DayTotals,
 }
@@ -32,15 +32,15 @@ pub(crate) struct Ledger {
 /// A flight in the account.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct Entry {
-    /// When it was decided.
+    /// When the decision was taken.
     time: Moment,
     /// The aircraft.
     aircraft: String,
-    /// Where it left.
+    /// The vertiport of departure.
     from: String,
-    /// Where it flew to.
+    /// The vertiport of destination.
     to: String,
-    /// Whether it has been reported landed. Until then the amounts are those that are expected.
+    /// Whether it has landed. Until then the amounts are expected ones.
     has_landed: bool,
     /// Passengers on board.
     passengers: u16,

@@ -1,5 +1,5 @@
-//! What happens to every request before and after its path is asked: who may send it, how long it
-//! may take, what is measured of it, and what its answer says besides.
+//! The common steps of every request, before and after its handler: access, time limit, metrics and
+//! headers.
 
 use std::any::Any;
 use std::pin::Pin;
@@ -22,10 +22,10 @@ use crate::error::Error;
 use crate::service::Service;
 use crate::tokens::Role;
 
-/// A read that meets a write of another service is carried out this often.
+/// Largest number of tries of a read that meets a write of another service.
 const READS: u32 = 5;
 
-/// Lets requests in that may be carried out. Signs of life need no token.
+/// Admits permitted requests. Health checks need no token.
 pub(super) async fn admit(
     State(service): State<Arc<Service>>,
     mut request: Request,
@@ -55,13 +55,13 @@ fn role_for(method: &Method, path: &str) -> Role {
         Method::POST if !["/archive", "/unarchive"].iter().any(|end| path.ends_with(end)) => {
             Role::Dispatch
         }
-        // A role that may begin a study may end it.
+        // A role that may start a study may end it.
         Method::DELETE if path.starts_with("/v1/studies/") => Role::Dispatch,
         _ => Role::Admin,
     }
 }
 
-/// Measures a request. This is the one place where requests are counted, logged, and told to a
+/// Measures a request. This is the only place where requests are counted, logged, and reported to a
 /// collector.
 pub(super) async fn measure(
     State(service): State<Arc<Service>>,
@@ -69,11 +69,11 @@ pub(super) async fn measure(
     next: Next,
 ) -> Response {
     let known = [Method::GET, Method::POST, Method::PUT, Method::DELETE, Method::HEAD];
-    // A client that invents methods must not create series.
+    // Methods that a client invents must not create series.
     let method = request.method();
     let is_known = known.contains(method);
     let method = if is_known { method.as_str() } else { "other" }.to_owned();
-    // Paths as they are described, since each id would be its own series.
+    // The described path instead of the actual one, since each id would be its own series.
     let path = request.extensions().get::<MatchedPath>().cloned();
     let path = path.as_ref().map(MatchedPath::as_str);
     let span = service.spans.as_ref().map(|spans| {
@@ -95,7 +95,7 @@ pub(super) async fn measure(
     answer
 }
 
-/// The answer after a panic. What happened is in the log, under the number that the client gets.
+/// The answer after a panic. The log has the details, under the number in the answer.
 #[expect(clippy::needless_pass_by_value, reason = "the signature of the layer")]
 pub(super) fn panicked(panic: Box<dyn Any + Send>) -> Response {
     let said = panic.downcast_ref::<String>().map(String::as_str);
@@ -105,8 +105,8 @@ pub(super) fn panicked(panic: Box<dyn Any + Send>) -> Response {
     Error::Internal { cause: format!("the log has more under {id}") }.into_response()
 }
 
-/// Carries a read out again if another service wrote to the day at that moment, so that the day has
-/// to be read again.
+/// Repeats a read if another service wrote to the day at that moment, so that the day must be read
+/// again.
 pub(super) async fn again_after_conflict(request: Request, next: Next) -> Response {
     if request.method() != Method::GET {
         return next.run(request).await;
@@ -124,8 +124,8 @@ pub(super) async fn again_after_conflict(request: Request, next: Next) -> Respon
     }
 }
 
-/// Ends a request that takes too long to be read or answered. Streams are answered at once, and go
-/// on.
+/// Ends a request that takes too long to be read or answered. Streams are answered at once, and
+/// continue.
 pub(super) async fn in_time(
     State(service): State<Arc<Service>>,
     request: Request,
@@ -136,8 +136,8 @@ pub(super) async fn in_time(
     answer.map_err(|_| Error::TooSlow { limit_s: limit.as_secs() })
 }
 
-/// Closes the connection after an answer to a request whose body was not read, and says so:
-/// otherwise the next request on it would be lost.
+/// Closes the connection after an answer to a request whose body was not read, and announces that
+/// in a header: otherwise the next request on it would be lost.
 pub(super) async fn with_whole_body(request: Request, next: Next) -> Response {
     let (parts, body) = request.into_parts();
     let has_ended = Arc::new(AtomicBool::new(body.is_end_stream()));
@@ -149,7 +149,7 @@ pub(super) async fn with_whole_body(request: Request, next: Next) -> Response {
     answer
 }
 
-/// A body that says when it has been read to its end.
+/// A body that records when it has been read to its end.
 struct Watched {
     body: Body,
     has_ended: Arc<AtomicBool>,
@@ -179,7 +179,8 @@ impl HttpBody for Watched {
     }
 }
 
-/// Adds the headers that keep browsers from guessing and from showing answers inside other pages.
+/// Adds the headers that stop browsers from guessing types and from showing answers inside other
+/// pages.
 pub(super) async fn with_headers(request: Request, next: Next) -> Response {
     let mut answer = next.run(request).await;
     let headers = answer.headers_mut();

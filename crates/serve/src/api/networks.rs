@@ -1,4 +1,4 @@
-//! Networks: listed, read, uploaded, checked, removed.
+//! Lists, reads, stores, checks and removes networks.
 
 use std::sync::Arc;
 
@@ -17,11 +17,11 @@ use crate::error::Error;
 use crate::networks::{self, NetworkInfo};
 use crate::service::Service;
 
-/// A network that is uploaded.
+/// A network to upload.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NewNetwork {
-    /// The text of its network file, with its table of demand in it.
+    /// The text of its network file, including its table of demand.
     toml: String,
 }
 
@@ -50,8 +50,8 @@ pub(super) async fn read(
     Ok(json(StatusCode::OK, &NetworkInfo { toml, ..NetworkInfo::of(&network, is_shipped) }))
 }
 
-/// Keeps a network under its name, in the place of one that was uploaded before. Days that were
-/// made stay as they are.
+/// Stores a network under its name, and replaces one that was uploaded before. Existing days keep
+/// the network that they were made from.
 #[utoipa::path(operation_id = "put_network", put, path = "/v1/networks/{network}", tag = "networks", params(("network" = String, Path)), request_body = NewNetwork, responses((status = 200, body = NetworkInfo)))]
 pub(super) async fn put(
     State(service): State<Arc<Service>>,
@@ -69,7 +69,7 @@ pub(super) async fn put(
     Ok(json(StatusCode::OK, &info))
 }
 
-/// Removes a network that was uploaded. Days that were made from it stay as they are.
+/// Removes a network that was uploaded. Existing days keep the network that they were made from.
 #[utoipa::path(operation_id = "delete_network", delete, path = "/v1/networks/{network}", tag = "networks", params(("network" = String, Path)), responses((status = 204)))]
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,
@@ -83,7 +83,7 @@ pub(super) async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// Checks a network without keeping it.
+/// Checks a network without storing it.
 #[utoipa::path(operation_id = "validate_network", post, path = "/v1/networks/validate", tag = "networks", request_body = NewNetwork, responses((status = 200, body = NetworkInfo)))]
 pub(super) async fn validate(
     State(service): State<Arc<Service>>,

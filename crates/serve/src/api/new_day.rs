@@ -1,4 +1,4 @@
-//! What a day is made from: a network or a scenario, and what is known better than they have it.
+//! The inputs of a new day: a network or a scenario, and changes to it.
 
 use std::collections::BTreeMap;
 
@@ -14,29 +14,29 @@ use crate::moment::Moment;
 use crate::networks;
 use crate::service::Service;
 
-/// A day to be made: from a network, or from a scenario.
+/// A day to make, from a network or from a scenario.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NewDay {
     /// A network that the program ships, or that was uploaded.
     network: Option<String>,
-    /// The seed with which the day is drawn from the network: its forecast and where aircraft stand
+    /// The seed that draws the day from the network: its forecast, and the vertiports of aircraft
     /// in the morning, unless they are given. 1 if it is absent.
     #[schema(maximum = 1_099_511_627_775u64)]
     seed: Option<u64>,
-    /// A whole scenario, as a scenario file has it.
+    /// A whole scenario, in the format of scenario files.
     #[schema(value_type = Option<Object>)]
     scenario: Option<Box<RawValue>>,
-    /// The passengers who are expected, in place of those of the network or the scenario. A pair
-    /// without a row has no passengers.
+    /// The expected passengers, in place of those of the network or the scenario. A pair without a
+    /// row has no passengers.
     forecast: Option<Vec<ForecastRow>>,
-    /// Where aircraft stand in the morning: the vertiport of each by the id of the aircraft. The
-    /// others stand where the network or the scenario has them.
+    /// The vertiports of aircraft in the morning, by the ids of the aircraft. The others stand
+    /// where the network or the scenario places them.
     #[serde(default)]
     aircraft: BTreeMap<String, String>,
     #[schema(min_length = 1, max_length = 80)]
-    /// What people call the day; without it, the name of its scenario, or of its network with the
-    /// date.
+    /// The display name of the day; without it, the name of its scenario, or of its network with
+    /// the date.
     name: Option<String>,
     /// Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO
     /// 8601.
@@ -45,7 +45,7 @@ pub(crate) struct NewDay {
     /// The time zone of its clock by its name in the IANA database; without it, that of the
     /// network.
     time_zone: Option<String>,
-    /// The policy that decides when none is asked for.
+    /// The default policy of its decisions.
     pub(super) policy: Option<String>,
 }
 
@@ -55,9 +55,9 @@ pub(crate) struct NewDay {
 pub(crate) struct ForecastRow {
     /// A time within the period, without a date.
     period: Moment,
-    /// Where they leave.
+    /// The vertiport of departure.
     from: String,
-    /// Where they fly to.
+    /// The vertiport of destination.
     to: String,
     /// Their number.
     #[schema(format = Int64, maximum = 4_294_967_295u32)]
@@ -71,7 +71,7 @@ impl NewDay {
     /// The day as it is expected before it begins, and the time zone of its network.
     ///
     /// # Errors
-    /// Returns an error if there is no such network, or if what is given makes no day.
+    /// Returns an error if there is no such network, or if the inputs make no valid day.
     pub(super) async fn scenario(
         &self,
         service: &Service,
@@ -146,7 +146,7 @@ impl NewDay {
         Ok((date.clone(), zone))
     }
 
-    /// What people call it.
+    /// Its display name.
     ///
     /// # Errors
     /// Returns [`Error::BadRequest`] if the name is empty, too long, or has a control character.

@@ -1,4 +1,4 @@
-//! Outlooks: how the day is expected to go on, and what it would be if things were otherwise.
+//! Outlooks: the expected rest of the day, now or under changed conditions.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -21,16 +21,15 @@ use crate::moment::by_calendar;
 use crate::outlook::{Comparison, NamedPolicy, Outlook, Patience, WhatIf};
 use crate::service::Service;
 
-/// Which outlook is asked for.
+/// The query of an outlook.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct By {
     /// The policy that decides from now on; without it, the day's.
     policy: Option<String>,
-    /// The number of the event after which the outlook is asked for: 0 asks for the plan of the
-    /// morning. Without it, the latest. If the day has no such event, that is answered by 404
-    /// (V602).
+    /// The number of the event after which the outlook begins: 0 returns the plan of the morning.
+    /// Without it, the latest. If the day has no such event, the answer is 404 (V602).
     #[param(inline)]
     seq: Option<EventNumber>,
     /// How times are written in the answer.
@@ -38,8 +37,8 @@ pub(crate) struct By {
     times: Times,
 }
 
-/// The rest of the day as it is expected, now or after any of its events, if a policy takes every
-/// decision from then on.
+/// The expected rest of the day, now or after any of its events, if a policy takes every decision
+/// from then on.
 #[utoipa::path(
     operation_id = "day_outlook", get, path = "/v1/days/{day}/outlook", tag = "outlooks", params(("day" = String, Path), By),
     responses((status = 200, body = Outlook))
@@ -64,8 +63,8 @@ pub(super) async fn outlook(
     times.answer(&day, outlook.seq, &outlook).await
 }
 
-/// When a policy that has not played the rest of a day is too late: a quick one then has as much
-/// time again.
+/// The time limit of a policy that has not played the rest of a day; a quick one then gets the same
+/// time.
 fn patience(service: &Service) -> Instant {
     Instant::now() + service.limits.request / 2
 }
@@ -82,8 +81,8 @@ async fn named(
     Ok(NamedPolicy { name, resolved })
 }
 
-/// Compares the outlook with what it would be after events that have not happened, with another
-/// policy, or with other stands or more aircraft. Nothing changes.
+/// Compares the outlook with that after hypothetical events, with another policy, or with other
+/// stands or more aircraft. Nothing changes.
 #[utoipa::path(
     operation_id = "what_if", post, path = "/v1/days/{day}/what-if", tag = "outlooks", params(("day" = String, Path), Written),
     request_body = Option<WhatIf>,

@@ -1,4 +1,4 @@
-//! Policies: listed, read, uploaded, checked, removed.
+//! Lists, reads, stores, checks and removes policies.
 
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ pub(crate) struct Weights(Vec<u8>);
 /// All policies.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct PolicyList {
-    /// Those that the program has, then those that were uploaded, by their names.
+    /// Those of the program, then those that were uploaded, by their names.
     policies: Vec<PolicyInfo>,
 }
 
@@ -36,7 +36,7 @@ pub(super) async fn list(State(service): State<Arc<Service>>) -> Result<Response
     Ok(json(StatusCode::OK, &PolicyList { policies: service.policies.list().await? }))
 }
 
-/// Reads what is known of a policy.
+/// Describes a policy.
 #[utoipa::path(operation_id = "read_policy", get, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path)), responses((status = 200, body = PolicyInfo)))]
 pub(super) async fn read(
     State(service): State<Arc<Service>>,
@@ -45,8 +45,8 @@ pub(super) async fn read(
     Ok(json(StatusCode::OK, &service.policies.info(&name).await?))
 }
 
-/// Keeps the weights of a policy, the bytes of a weight file, under a name. The name means these
-/// weights for good.
+/// Stores the weights of a policy, the bytes of a weight file, under a name. The name means these
+/// weights permanently.
 #[utoipa::path(operation_id = "put_policy", put, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path, pattern = "^[a-z0-9_-][a-z0-9._-]{0,39}$")), request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = PolicyInfo)))]
 pub(super) async fn put(
     State(service): State<Arc<Service>>,
@@ -61,8 +61,8 @@ pub(super) async fn put(
     Ok(json(StatusCode::OK, &info))
 }
 
-/// Removes a policy that was uploaded. A day that it decides on goes on with it until the service
-/// starts again.
+/// Removes a policy that was uploaded. A day that it decides on continues with it until the service
+/// restarts.
 #[utoipa::path(operation_id = "delete_policy", delete, path = "/v1/policies/{policy}", tag = "policies", params(("policy" = String, Path)), responses((status = 204)))]
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,
@@ -76,7 +76,7 @@ pub(super) async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// Checks a weight file without keeping it, and says what it is.
+/// Checks a weight file without storing it, and describes it.
 #[utoipa::path(operation_id = "validate_policy", post, path = "/v1/policies/validate", tag = "policies", request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = WeightsInfo)))]
 pub(super) async fn validate(
     State(service): State<Arc<Service>>,

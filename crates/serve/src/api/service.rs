@@ -1,4 +1,4 @@
-//! The service itself: what it is, and whether it is well.
+//! The service: its properties and its health.
 
 use std::sync::Arc;
 
@@ -14,20 +14,20 @@ use crate::error::Error;
 use crate::service::Service;
 use crate::tokens::Role;
 
-/// What the service is, and what the sender may do.
+/// The properties of the service, and the rights of the sender.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct ServiceInfo {
     /// The version of the program.
     version: &'static str,
     /// The name of the token that the request came with; null without tokens.
     token: Option<String>,
-    /// What it permits: `read`, `dispatch` or `admin`.
+    /// The role of the token: `read`, `dispatch` or `admin`.
     role: Role,
     /// The policy that decides on a day if none is named.
     policy: &'static str,
 }
 
-/// Returns what the service is, and what the sender may do.
+/// Returns the properties of the service, and the rights of the sender.
 #[utoipa::path(operation_id = "service_info", get, path = "/v1", tag = "service", responses((status = 200, body = ServiceInfo)))]
 pub(super) async fn info(
     State(service): State<Arc<Service>>,
@@ -46,14 +46,14 @@ pub(super) async fn healthz() -> &'static str {
     "ok\n"
 }
 
-/// Whether the store of the service takes what it is given. It needs no token.
+/// Whether the store of the service accepts writes. It needs no token.
 #[utoipa::path(operation_id = "readyz", get, path = "/readyz", tag = "service", responses((status = 200, content_type = "text/plain", body = String)))]
 pub(super) async fn readyz(State(service): State<Arc<Service>>) -> Result<&'static str, Error> {
     service.days.check().await?;
     Ok("ready\n")
 }
 
-/// What the service measures about itself, for Prometheus.
+/// The metrics of the service, for Prometheus.
 #[utoipa::path(operation_id = "metrics", get, path = "/metrics", tag = "service", responses((status = 200, content_type = "application/openmetrics-text", body = String)))]
 pub(super) async fn metrics(State(service): State<Arc<Service>>) -> Response {
     let kind = "application/openmetrics-text; version=1.0.0; charset=utf-8";

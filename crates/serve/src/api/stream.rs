@@ -28,18 +28,18 @@ use crate::store::Store;
 use crate::taken_event::TakenEvent;
 use crate::tokens::Role;
 
-/// Events that are read from the store at once. They are written out between other requests, so
-/// they are few.
+/// Events that are read from the store at once. They are written between other requests, so they
+/// are few.
 const PAGE: u32 = 250;
 
-/// How often a reader looks whether its token is still in force and its day is still in memory.
+/// Interval at which a stream checks that its token is still valid and its day is still in memory.
 const POLL_INTERVAL: Duration = Duration::from_millis(250);
 
-/// After so long without an event a reader is sent an empty line, by which it knows that the
-/// service lives, and proxies do not end the stream.
+/// Time without an event after which the service sends an empty line. It shows the reader that the
+/// service is alive, and stops proxies from closing the stream.
 const KEEP_ALIVE: Duration = Duration::from_secs(2);
 
-/// Where the stream begins.
+/// The query of a stream.
 #[derive(Debug, Deserialize, IntoParams)]
 #[into_params(parameter_in = Query)]
 #[serde(deny_unknown_fields)]
@@ -53,8 +53,8 @@ pub(crate) struct From {
     times: Times,
 }
 
-/// A reader of a day's events. It reads from the store what was there before it came and what it
-/// missed because it was slow, and gets the rest as it is stored.
+/// A reader of a day's events. It reads older events, and those that it missed because it was slow,
+/// from the store; it receives the rest when they are stored.
 struct Reader {
     day: Arc<DayCell>,
     store: Store,
@@ -62,15 +62,15 @@ struct Reader {
     position: Position,
     stopping: watch::Receiver<bool>,
     service: Arc<Service>,
-    /// What the reader came with, to see whether its token is still in force.
+    /// The sender's token, to check whether it is still valid.
     headers: HeaderMap,
     looked: Instant,
-    /// When something was sent last.
+    /// When something was last sent.
     said: Instant,
     times: Times,
 }
 
-/// The event that a reader saw last.
+/// The event that a reader received last.
 fn last_event(headers: &HeaderMap) -> Result<Option<EventMark>, Error> {
     let Some(id) = headers.get("last-event-id") else { return Ok(None) };
     let wrong = || Error::BadRequest {
@@ -85,9 +85,8 @@ impl Drop for Reader {
     }
 }
 
-/// Streams the events of a day, each with its number as `id`, from those after `Last-Event-ID` on.
-/// A message of the type `behind` says in words that the reader was too slow; what it missed
-/// follows.
+/// Streams the events of a day after `Last-Event-ID`, each with its number as `id`. A message of
+/// the type `behind` reports that the reader was too slow; the events that it missed follow.
 #[utoipa::path(
     operation_id = "stream_events", get, path = "/v1/days/{day}/stream", tag = "events", params(("day" = String, Path), From),
     responses((status = 200, content_type = "text/event-stream", body = TakenEvent))
@@ -133,7 +132,7 @@ pub(super) async fn stream(
 }
 
 impl Reader {
-    /// The next events as text, all that are there; `None` if the day can no longer be read.
+    /// All available next events as text; `None` if the day can no longer be read.
     async fn next(&mut self) -> Option<Bytes> {
         loop {
             if self.looked.elapsed() >= POLL_INTERVAL {
@@ -156,8 +155,8 @@ impl Reader {
                 if let Some(fresh) = fresh {
                     self.take(fresh, &mut text)?;
                 }
-                // What has come meanwhile goes out together: where many read, a write for each
-                // event would cost most.
+                // Events that arrived in the meantime are sent together: with many readers, a write
+                // for each event would be the largest cost.
                 while !self.position.is_behind()
                     && let Ok(event) = self.fresh.try_recv()
                 {
@@ -174,7 +173,7 @@ impl Reader {
         }
     }
 
-    /// Takes what the day tells its readers; `None` if it tells them nothing any more.
+    /// Takes a message of the day to its readers; `None` if there will be no more.
     fn take(
         &mut self,
         fresh: Result<Arc<Published>, RecvError>,
@@ -201,8 +200,8 @@ impl Reader {
         Some(())
     }
 
-    /// Sees whether the reader may still read. If the day in memory was thrown away, goes on with
-    /// the one that took its place; `None` if there is none, or if its log is another one.
+    /// Checks whether the reader may still read. If the day in memory was discarded, continues with
+    /// its replacement; `None` if there is none, or if its log is another one.
     async fn renew(&mut self) -> Option<()> {
         self.looked = Instant::now();
         self.service.access.may(&self.headers, Role::Read).await.ok()?;

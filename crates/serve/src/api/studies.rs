@@ -1,4 +1,4 @@
-//! Studies: asked for, followed, read, ended.
+//! Starts, lists, reads and ends studies.
 
 use std::sync::Arc;
 
@@ -28,16 +28,15 @@ pub(crate) struct StudyList {
     studies: Vec<StudyInfo>,
 }
 
-/// Lists the studies that were asked for since the service began, the latest first. It keeps the
-/// last 20 that have ended, in memory: what a study says follows from what it was asked for, so it
-/// can be had again.
+/// Lists the studies since the service started, the latest first. It keeps the last 20 that have
+/// ended, in memory. The result of a study follows from its request, so it can be computed again.
 #[utoipa::path(operation_id = "list_studies", get, path = "/v1/studies", tag = "studies", responses((status = 200, body = StudyList)))]
 pub(super) async fn list(State(service): State<Arc<Service>>) -> Response {
     json(StatusCode::OK, &StudyList { studies: service.studies.list() })
 }
 
 /// Plays policies on many days of a network, in the background. One study plays at a time, and
-/// eight may wait. It is kept until the service stops.
+/// eight may wait. The service keeps it until it stops.
 #[utoipa::path(operation_id = "make_study", post, path = "/v1/studies", tag = "studies", request_body = NewStudy, responses((status = 201, body = StudyInfo)))]
 pub(super) async fn create(
     State(service): State<Arc<Service>>,
@@ -53,7 +52,7 @@ pub(super) async fn create(
     Ok(json(StatusCode::CREATED, &study))
 }
 
-/// Reads a study: how far it is, and its result once it has finished.
+/// Reads a study: its progress, and its result once it has finished.
 #[utoipa::path(operation_id = "read_study", get, path = "/v1/studies/{study}", tag = "studies", params(("study" = String, Path)), responses((status = 200, body = StudyInfo)))]
 pub(super) async fn read(
     State(service): State<Arc<Service>>,
@@ -62,7 +61,7 @@ pub(super) async fn read(
     Ok(json(StatusCode::OK, &service.studies.read(&study)?))
 }
 
-/// The result of a study as the page of a report, which opens without the service too.
+/// The result of a study as the page of a report, which also opens without the service.
 #[utoipa::path(operation_id = "study_report", get, path = "/v1/studies/{study}/report", tag = "studies", params(("study" = String, Path)), responses((status = 200, content_type = "text/html", body = String)))]
 pub(super) async fn report(
     State(service): State<Arc<Service>>,
@@ -108,11 +107,11 @@ pub(crate) struct ReplayedDay {
     /// The scenario, as its file has it.
     #[schema(value_type = Object)]
     scenario: (),
-    /// What each policy did.
+    /// The day as each policy played it.
     plays: Vec<Play>,
 }
 
-/// What a policy did on a day.
+/// A day as a policy played it.
 #[derive(ToSchema)]
 #[expect(dead_code, reason = "the study writes it, and this describes it")]
 pub(crate) struct Play {
@@ -124,7 +123,7 @@ pub(crate) struct Play {
     profit_usd: f64,
 }
 
-/// Ends a study if it plays or waits, and forgets it.
+/// Ends a study if it plays or waits, and removes it.
 #[utoipa::path(operation_id = "delete_study", delete, path = "/v1/studies/{study}", tag = "studies", params(("study" = String, Path)), responses((status = 204)))]
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,
@@ -134,9 +133,9 @@ pub(super) async fn delete(
     Ok(StatusCode::NO_CONTENT)
 }
 
-/// What a page may use: its own style sheet and script, and the script and the style sheet of the
-/// replay within it, which inherits this. Nothing of it belongs to the service: it cannot read what
-/// the console keeps.
+/// The content security policy of a page: its own style sheet and script, and those of the replay
+/// in it, which inherits the policy. The page has no access to the service or to the data of the
+/// console.
 fn policy_of(page: &str) -> HeaderValue {
     let style = page.split_once("<style>").and_then(|(_, rest)| rest.split_once("</style>"));
     let style = style.map_or("", |(style, _)| style);

@@ -1,4 +1,4 @@
-//! Writes: who writes, what must hold for it, and the key by which it is carried out once.
+//! Writes: the sender, the conditions, and the key by which a write is carried out once.
 
 use std::hash::Hasher as _;
 use std::sync::Arc;
@@ -32,8 +32,7 @@ impl<S: Send + Sync> FromRequestParts<S> for Writer {
 }
 
 /// A write that is carried out once for each `Idempotency-Key`, with its body of at most `MOST`
-/// bytes. One that has been carried out before does not reach its path: it is answered as it was
-/// then.
+/// bytes. A repeated one does not reach its handler: it gets the stored answer.
 pub(super) struct Idempotent<const MOST: usize = SHORT> {
     pub(super) writer: Writer,
     pub(super) body: Bytes,
@@ -49,7 +48,7 @@ impl<const MOST: usize> FromRequest<Arc<Service>> for Idempotent<MOST> {
 }
 
 impl<const MOST: usize> Idempotent<MOST> {
-    /// The write, or the answer that it got before.
+    /// The write, or the answer that it received before.
     async fn read(request: Request, service: &Arc<Service>) -> Result<Result<Self, String>, Error> {
         let (mut parts, body) = request.into_parts();
         let Body(body) = Body::<MOST>::from_request(Request::new(body), service).await?;
@@ -61,8 +60,7 @@ impl<const MOST: usize> Idempotent<MOST> {
             let rule = format!("Idempotency-Key must have 1 to {LONGEST_KEY} characters");
             return Err(Error::BadRequest { rule });
         }
-        // Keys are separate for each token. The length keeps a name from being read as a part of a
-        // key.
+        // Keys are separate for each token. The length separates a name from a key unambiguously.
         let own = format!("{}:{}:{key}", writer.actor.len(), writer.actor);
         let (busy, may_be_known) = service.keys.take(&own)?;
         let request = sum(parts.uri.path(), &body);
@@ -91,7 +89,7 @@ fn if_match(headers: &HeaderMap) -> Result<Option<u64>, Error> {
     text(headers, "if-match")?.map(|text| text.trim_matches('"').parse().map_err(wrong)).transpose()
 }
 
-/// A short sum of a request, to tell it from others.
+/// A short checksum of a request, to distinguish requests.
 fn sum(path: &str, body: &[u8]) -> String {
     let mut hasher = SipHasher24::new();
     hasher.write(path.as_bytes());

@@ -1,4 +1,4 @@
-//! How many connections each address has, so that one client does not take them all.
+//! Counts the connections of each address, so that one client does not take them all.
 
 use std::collections::HashMap;
 use std::net::{IpAddr, Ipv6Addr};
@@ -7,12 +7,12 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 /// Connections by the address that they come from.
 #[derive(Debug, Clone)]
 pub(super) struct Addresses {
-    /// The most of one address.
+    /// Largest number for one address.
     most: usize,
     open: Arc<Mutex<HashMap<IpAddr, usize>>>,
 }
 
-/// One connection of an address, as long as this is not dropped.
+/// One connection of an address, until this is dropped.
 #[derive(Debug)]
 pub(super) struct Place {
     addresses: Addresses,
@@ -25,8 +25,8 @@ impl Addresses {
         Self { most, open: Arc::default() }
     }
 
-    /// A place for a connection; `None` if the address has as many as it may. This machine's own
-    /// clients have no limit: a proxy may be among them.
+    /// A place for a connection; `None` if the address has reached its limit. Clients on this
+    /// machine have no limit: a proxy may be among them.
     pub(super) fn take(&self, address: IpAddr) -> Option<Place> {
         let address = network_of(address);
         let mut open = self.open();

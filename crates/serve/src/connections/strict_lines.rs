@@ -1,6 +1,6 @@
-//! Lines of requests end with CR LF. The parser of HTTP also takes a bare LF (RFC 9112, 2.2,
-//! permits it), which a proxy may read differently, so that one request hides in another. Here a
-//! bare LF in a head becomes a NUL, which the parser refuses with 400.
+//! Requires CR LF at the end of lines. The HTTP parser also accepts a bare LF (RFC 9112, 2.2,
+//! permits it), which a proxy may interpret differently, so that one request could hide in another.
+//! Here a bare LF in a head becomes a NUL, which the parser refuses with 400.
 
 use std::io;
 use std::pin::Pin;
@@ -51,7 +51,7 @@ struct Head {
 }
 
 impl Head {
-    /// Takes the next byte. Returns what comes after the head once that ends.
+    /// Processes the next byte. Returns the part after the head once it ends.
     fn take(&mut self, byte: &mut u8) -> Option<Part> {
         if *byte != b'\n' {
             self.latest = *byte;
@@ -76,14 +76,14 @@ impl Head {
         None
     }
 
-    /// Takes the length of the body from a header. Returns false if it cannot be found, so that the
-    /// parser must not find another one.
+    /// Reads the length of the body from a header. Returns false if it has none that is
+    /// unambiguous; the parser must then refuse the request.
     fn note_header(&mut self) -> bool {
         let Some(colon) = self.line.iter().position(|byte| *byte == b':') else { return true };
         let (name, value) = (&self.line[..colon], self.line[colon + 1..].trim_ascii());
         let is_whole = self.line.len() < INSPECTED;
         if name.eq_ignore_ascii_case(b"content-length") {
-            // A sign, which this reads, the parser refuses.
+            // `parse` accepts a sign, which the parser refuses.
             let length = std::str::from_utf8(value).ok().and_then(|digits| digits.parse().ok());
             self.length = length.unwrap_or_default();
             return is_whole && length.is_some();
@@ -111,7 +111,7 @@ impl Part {
         Self::Head(Head::default())
     }
 
-    /// Takes bytes from the front. Returns their number.
+    /// Processes bytes from the front. Returns their number.
     fn take(&mut self, bytes: &mut [u8]) -> usize {
         let next = match self {
             Self::Head(head) => head.take(&mut bytes[0]),
@@ -219,7 +219,7 @@ mod tests {
 
     use super::StrictLines;
 
-    /// What the parser gets of bytes that come in pieces of a length.
+    /// The parser's input if bytes arrive in pieces of a length.
     async fn read(bytes: &[u8], piece: usize) -> Vec<u8> {
         let mut stream = StrictLines::new(bytes);
         let (mut read, mut buffer) = (Vec::new(), vec![0; piece]);
@@ -258,7 +258,7 @@ mod tests {
             let sent = format!("POST / HTTP/1.1\r\n{length}\r\n\r\n");
             let spoilt = sent.replace(&format!("{length}\r\n"), &format!("{length}\r\0"));
             if length.contains('+') {
-                // The parser refuses it too.
+                // The parser also refuses it.
                 assert_eq!(read(sent.as_bytes(), 9).await, sent.as_bytes());
             } else {
                 assert_eq!(read(sent.as_bytes(), 9).await, spoilt.as_bytes());

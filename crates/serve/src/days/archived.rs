@@ -1,5 +1,4 @@
-//! Days that are closed to writes, opened again, and removed, each only where the writer expects it
-//! to be.
+//! Archives, reopens and deletes days, each only at the event that the writer expects.
 
 use std::sync::Arc;
 
@@ -10,7 +9,7 @@ use crate::day_cell::DayCell;
 use crate::error::Error;
 
 impl Days {
-    /// Closes a day to writes, or opens it again. It may be so already.
+    /// Archives a day or reopens it. It may already be in that state.
     ///
     /// # Errors
     /// Returns [`Error::NotFound`], [`Error::Moved`] if the day is at another event than the writer
@@ -38,8 +37,8 @@ impl Days {
         Ok(())
     }
 
-    /// A day that is where the writer expects it to be, when all its events so far are stored. The
-    /// store has the last word on where it is, since events may come until then.
+    /// A day at the event that the writer expects, when all its events so far are stored. The store
+    /// makes the final check, since events may arrive in the meantime.
     async fn settled(&self, id: &str, writer: &Writer) -> Result<Arc<DayCell>, Error> {
         for _ in 0..TRIES {
             let day = self.get(id).await?;
@@ -53,12 +52,12 @@ impl Days {
         Err(Error::Conflict)
     }
 
-    /// Has all users of a day read it again, also readers of its stream and writers.
+    /// Makes all users of a day read it again, including readers of its stream and writers.
     pub(super) fn drop_from_memory(&self, day: &DayCell) {
         day.fail();
         let mut cells = self.cells();
-        // A day that has been read again since stays. One that is being read may have been read too
-        // early.
+        // A day that was read again in the meantime stays. One that is being read may have been
+        // read too early.
         let is_dropped = |cell: &Arc<OnceCell<Arc<DayCell>>>| {
             cell.get().is_none_or(|kept| std::ptr::eq(&raw const **kept, day))
         };

@@ -1,4 +1,4 @@
-//! Days that are read from the store: as they are, and as they were after an earlier event.
+//! Reads days from the store: their current state, and the state after an earlier event.
 
 use std::sync::Arc;
 
@@ -11,10 +11,10 @@ use crate::error::Error;
 use crate::store::Store;
 
 impl Days {
-    /// A day as it is stored.
+    /// Reads a day from the store.
     pub(super) async fn read(&self, id: &str) -> Result<Arc<DayCell>, Error> {
         let (store, id) = (self.store.clone(), id.to_owned());
-        // The first caller reads the day for all, so no token is charged.
+        // The first caller reads the day for all, so it is attributed to no token.
         self.turns.run("", async move { read(&store, &id).await }).await
     }
 
@@ -34,10 +34,10 @@ impl Days {
         self.replayed(actor, day, scenario, seq).await
     }
 
-    /// A day as it would be after its events up to a number if it had begun otherwise.
+    /// A day after its events up to a number, with another beginning.
     ///
     /// # Errors
-    /// Returns [`Error::BadData`] if an event could not have happened then.
+    /// Returns [`Error::BadData`] if an event is not possible then.
     pub(crate) async fn replayed(
         &self,
         actor: &str,
@@ -67,18 +67,17 @@ async fn read(store: &Store, id: &str) -> Result<Arc<DayCell>, Error> {
     let mut state = DispatchDay::new(Arc::new(scenario));
     let replayed = replay(store, id, &mut state, u64::MAX).await;
     if let Err(damaged) = replayed.and_then(|()| state.check_head(head)) {
-        // A day that was deleted meanwhile is not damaged.
+        // A day that was deleted in the meantime is not damaged.
         store.head(id).await?.ok_or_else(|| Error::not_found("day", id))?;
         return Err(damaged.of_day(id));
     }
     Ok(Arc::new(DayCell::new(stored, state)?))
 }
 
-/// Replays the events of a day that follow those of a state, up to a number or to the last one that
-/// is stored.
+/// Replays the events of a day after those of a state, up to a number or to the last stored one.
 ///
 /// # Errors
-/// Returns the errors of [`DispatchDay::replay`]; the events before the one that is wrong have been
+/// Returns the errors of [`DispatchDay::replay`]; the events before the invalid one have been
 /// replayed then.
 pub(crate) async fn replay(
     store: &Store,

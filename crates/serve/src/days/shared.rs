@@ -1,4 +1,4 @@
-//! Days that other services write to as well, in one database: what they have added is taken in
+//! Days that other services write to as well, in one database. The service applies their events
 //! when a day is used, and while its stream is read.
 
 use std::sync::Arc;
@@ -12,13 +12,13 @@ use crate::day_cell::DayCell;
 use crate::error::Error;
 use crate::store::{DayNotice, PAGE};
 
-/// How often the days whose streams are read are looked at, in case a notice was missed.
+/// Interval at which the days whose streams are read are checked, in case a notice was missed.
 const POLL_INTERVAL: Duration = Duration::from_secs(2);
 
 impl Days {
-    /// Takes in what other services have added to a day. Returns false if memory does not go on as
-    /// the store does: an event of ours waits to be stored under a number that has been taken, or
-    /// the day was archived, opened again, deleted or put back from a copy.
+    /// Applies the events that other services have added to a day. Returns false if memory is not a
+    /// prefix of the store: an event of this service waits under a number that was taken, or the
+    /// day was archived, reopened, deleted or restored from a copy.
     pub(super) async fn catch_up(&self, day: &DayCell) -> Result<bool, Error> {
         let stored = day.stored_seq();
         let Some(head) = self.store.head(day.id()).await? else { return Ok(false) };
@@ -31,7 +31,7 @@ impl Days {
                 (state.seq(), state.chain())
             };
             if head.seq <= known {
-                // Events of ours may be on their way to the store.
+                // Events of this service may be on their way to the store.
                 return Ok(head.seq < known || head.chain == chain);
             }
             let page = self.store.events(day.id(), known, PAGE).await?;
@@ -50,8 +50,8 @@ impl Days {
         }
     }
 
-    /// Follows what other services do to the days whose streams are read, until it is dropped. One
-    /// connection hears their notices for all readers.
+    /// Follows the changes of other services to the days whose streams are read, until it is
+    /// dropped. One connection receives their notices for all readers.
     pub(crate) async fn follow_others(&self) {
         if !self.store.is_shared() {
             return;
@@ -67,7 +67,8 @@ impl Days {
     async fn listen(&self) -> Result<(), Error> {
         let Some(mut listener) = self.store.listener().await? else { return Ok(()) };
         loop {
-            // At first for what happened before it listened, then for notices that were missed.
+            // The first pass applies changes from before the connection; later ones apply missed
+            // notices.
             self.check_followed_days().await?;
             let checked = Instant::now();
             while let Some(left) = POLL_INTERVAL.checked_sub(checked.elapsed()) {
@@ -86,7 +87,7 @@ impl Days {
         if is_known { Ok(()) } else { self.refresh(&day).await }
     }
 
-    /// Compares the days whose streams are read with the store, all in one question.
+    /// Compares the days whose streams are read with the store, in one query.
     async fn check_followed_days(&self) -> Result<(), Error> {
         let days: Vec<Arc<DayCell>> = {
             let cells = self.cells();
@@ -108,8 +109,8 @@ impl Days {
         Ok(())
     }
 
-    /// Takes in what other services have done to a day. A damaged one is dropped, and does not keep
-    /// others from being followed.
+    /// Applies the changes of other services to a day. A damaged day is dropped; the others are
+    /// still followed.
     async fn refresh(&self, day: &DayCell) -> Result<(), Error> {
         match self.catch_up(day).await {
             Ok(true) => {}

@@ -1,11 +1,11 @@
-//! Tokens are made, listed and revoked at the machine of a service.
+//! Makes, lists and revokes tokens on the machine of a service.
 
 use crate::clock::now_ms;
 use crate::error::Error;
 use crate::store::{Location, Store};
 use crate::tokens::{Role, StoredToken};
 
-/// Makes, lists and revokes tokens, with or without a running service.
+/// Makes, lists and revokes tokens, while a service runs or not.
 #[derive(Debug)]
 pub struct Tokens {
     runtime: tokio::runtime::Runtime,
@@ -19,7 +19,7 @@ impl Drop for Tokens {
 }
 
 impl Tokens {
-    /// Opens the store of a service, and makes one if there is none.
+    /// Opens the store of a service, and creates it if it does not exist.
     ///
     /// # Errors
     /// Returns [`Error::Store`] or [`Error::BadData`] if it cannot be opened.
@@ -27,10 +27,10 @@ impl Tokens {
         Self::of(async || Store::open(location).await)
     }
 
-    /// Opens the store of a service, which must be there.
+    /// Opens the store of a service, which must exist.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] or [`Error::BadData`] if it is not there or cannot be opened.
+    /// Returns [`Error::Store`] or [`Error::BadData`] if it does not exist or cannot be opened.
     pub fn open_existing(location: &Location) -> Result<Self, Error> {
         Self::of(async || Store::open_existing(location).await)
     }
@@ -42,7 +42,7 @@ impl Tokens {
         Ok(Self { runtime, store })
     }
 
-    /// Makes a token and returns its text, which cannot be had again.
+    /// Makes a token and returns its text, which cannot be shown again.
     ///
     /// # Errors
     /// Returns [`Error::NameTaken`] if another one with this name is in force, and [`Error::Store`]

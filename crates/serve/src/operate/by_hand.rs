@@ -1,8 +1,8 @@
-//! A day on which people decide: the operator tells what happens, and time stands still until all
-//! who wait have a decision.
+//! A day on which people decide: the operator reports events, and time stops until all waiting
+//! aircraft have a decision.
 //!
-//! People decide in any order, take decisions back as long as the aircraft has not
-//! departed, and report what they know. The simulated day follows them.
+//! People decide in their own order, cancel decisions before the aircraft has departed, and report
+//! events. The simulated day follows them.
 
 use std::collections::HashMap;
 use std::thread;
@@ -17,10 +17,10 @@ use super::client::{Client, Heard};
 use crate::error::Error;
 use crate::moment::Moment;
 
-/// How often the operator looks whether others have done something.
+/// Interval at which the operator checks for actions of others.
 const POLL_INTERVAL: Duration = Duration::from_millis(20);
 
-/// Those who decide, and the day that follows them.
+/// The people who decide, and the day that follows them.
 pub(super) struct People<'a> {
     operation: &'a Operation,
     day: &'a str,
@@ -30,7 +30,7 @@ pub(super) struct People<'a> {
     stood: HashMap<AircraftIx, VertiportIx>,
 }
 
-/// An aircraft as the service knows it.
+/// An aircraft in the service's state.
 #[derive(Deserialize)]
 struct Known {
     id: String,
@@ -55,7 +55,7 @@ impl<'a> People<'a> {
     }
 
     /// Plays the day until its last decision. `watch` is called with the time of each decision and
-    /// how long people took.
+    /// the time that people took.
     ///
     /// # Errors
     /// Returns [`Error::NoAnswer`] if the service does not answer.
@@ -66,7 +66,7 @@ impl<'a> People<'a> {
     ) -> Result<Result<(), Stopped>, Error> {
         let start = self.operation.day.operations.start;
         let mut now = None;
-        // The clock of the day as it would run if it waited for no decision.
+        // The clock of the day if it did not wait for decisions.
         let mut begun = Instant::now();
         let mut asked = begun;
         while let Some(decision) = reporter.next_decision() {
@@ -84,7 +84,7 @@ impl<'a> People<'a> {
                 begun += look.elapsed();
                 continue;
             }
-            // While time goes on to the next decision, those before can still be taken back.
+            // Until the next decision is due, earlier ones can still be cancelled.
             if !self.is_due(begun, decision.time.since(start)) {
                 thread::sleep(POLL_INTERVAL);
                 if now.is_some() {
@@ -92,7 +92,7 @@ impl<'a> People<'a> {
                 }
                 continue;
             }
-            // What happens next follows from what people have done so far.
+            // The next event depends on the actions of people so far.
             let before = reporter.clone();
             if !self.client.report_as_heard(self.day, reporter, decision.time)? {
                 *reporter = before;
@@ -110,8 +110,8 @@ impl<'a> People<'a> {
         speed.is_none_or(|speed| begun.elapsed().as_secs_f64() >= f64::from(day_s) / speed)
     }
 
-    /// Has the day follow what people have done since the last look. Returns whether they have
-    /// decided something.
+    /// Applies the actions of people since the last check to the day. Returns whether they have
+    /// decided anything.
     fn follow(&mut self, reporter: &mut Reporter, now: Time) -> Result<bool, Error> {
         let heard = self.client.heard(self.day)?;
         let (mut decides, mut is_otherwise) = (false, false);
@@ -141,8 +141,8 @@ impl<'a> People<'a> {
         Ok(decides)
     }
 
-    /// Learns from the service who is ready when, since people have told it what the simulated day
-    /// does not know.
+    /// Reads from the service which aircraft is ready when, since people report events that the
+    /// simulated day does not contain.
     fn ask_who_is_ready(&mut self, reporter: &mut Reporter, now: Time) -> Result<(), Error> {
         let fleet: Fleet = self.client.get(&format!("/v1/days/{}/state", self.day))?;
         for known in fleet.aircraft.iter().filter(|known| known.phase == "standing") {

@@ -1,4 +1,4 @@
-//! The operator's way to the service: every write has a key and is sent again until it is answered.
+//! The operator's client: every write has a key and is repeated until it is answered.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -20,9 +20,9 @@ use crate::error::Error;
 use crate::event::{Event, EventKind};
 use crate::ids::Ids;
 
-/// A write is tried again for this long when the service does not answer.
+/// How long a write is repeated when the service does not answer.
 const REQUEST_TIMEOUT: Duration = Duration::from_secs(30);
-/// Events that are sent at once.
+/// Events in one request.
 const MOST_EVENTS: usize = 1_000;
 
 #[derive(Deserialize)]
@@ -46,7 +46,7 @@ struct Taken {
     seq: u64,
 }
 
-/// What others did on the day.
+/// Actions of others on the day.
 pub(super) enum Heard {
     /// They decided where an aircraft flies.
     Decided {
@@ -60,7 +60,7 @@ pub(super) enum Heard {
         /// The aircraft.
         aircraft: String,
     },
-    /// They reported something else.
+    /// They reported another event.
     Other,
 }
 
@@ -99,19 +99,18 @@ fn trusted(file: &Path) -> Result<Vec<Certificate<'static>>, Error> {
     Ok(certificates)
 }
 
-/// Sends requests, each write with a different key, so that it can be sent again.
+/// Sends requests; each write has its own key, so that it can be repeated.
 pub(super) struct Client {
     url: String,
     agent: ureq::Agent,
-    /// The beginning of every key, and how many have been used.
+    /// The prefix of all keys, and the number of keys used.
     run: String,
     sent: u64,
     pub(super) sent_again: u64,
-    /// The number of the latest event that was heard of, and the later ones that are the operator's
-    /// own.
+    /// The number of the latest event that was received, and the later ones that the operator sent.
     heard: u64,
     own: BTreeSet<u64>,
-    /// The value of the header that carries the token.
+    /// The value of the header with the token.
     bearer: Option<String>,
     ids: Ids,
 }
@@ -125,8 +124,8 @@ impl Client {
         let config = ureq::Agent::config_builder()
             .tls_config(tls.build())
             .http_status_as_error(false)
-            // Not for the whole request: that would take a thread for looking the address up each
-            // time.
+            // Not a limit for the whole request: that would start a thread for each lookup of the
+            // address.
             .timeout_connect(Some(REQUEST_TIMEOUT))
             .timeout_send_body(Some(REQUEST_TIMEOUT))
             .timeout_recv_response(Some(Duration::from_mins(1)))
@@ -146,7 +145,7 @@ impl Client {
         })
     }
 
-    /// Sends everything that becomes known up to a time.
+    /// Reports everything that becomes known up to a time.
     pub(super) fn report(
         &mut self,
         day: &str,
@@ -159,8 +158,8 @@ impl Client {
         Ok(())
     }
 
-    /// Sends everything that becomes known up to a time, and that it is that time now, unless
-    /// others have done something that has not been heard of. Returns whether it was sent.
+    /// Reports everything that becomes known up to a time, and the time, unless others have added
+    /// events that were not received. Returns whether it was sent.
     pub(super) fn report_as_heard(
         &mut self,
         day: &str,
@@ -175,13 +174,13 @@ impl Client {
             let taken: Option<Taken> = self.post_if(&path, &events, heard)?;
             let Some(Taken { seq }) = taken else { return Ok(false) };
             self.own.extend(seq + 1 - events.len() as u64..=seq);
-            // What the first of them tells cannot be taken back.
+            // The first of these events cannot be taken back.
             heard = None;
         }
         Ok(true)
     }
 
-    /// Has the service decide, and returns where the aircraft flies.
+    /// Requests a decision, and returns the destination of the aircraft.
     pub(super) fn decide(
         &mut self,
         day: &str,
@@ -193,7 +192,7 @@ impl Client {
         Ok(taken.to)
     }
 
-    /// What others have done since this was last asked, in its order.
+    /// The actions of others since the last call, in order.
     pub(super) fn heard(&mut self, day: &str) -> Result<Vec<Heard>, Error> {
         let page = format!("/v1/days/{day}/events?after={}&limit=1000", self.heard);
         let page: EventPage = self.get(&page)?;
@@ -221,7 +220,7 @@ impl Client {
         answer.ok_or_else(|| self.wrong("an answer to a condition that was not made"))
     }
 
-    /// Posts if the day is at an event still, if one is given. Returns `None` if it has gone on.
+    /// Posts if the day is still at the given event, if any. Returns `None` if it is not.
     fn post_if<T: DeserializeOwned>(
         &mut self,
         path: &str,
@@ -253,8 +252,7 @@ impl Client {
         self.read(path, status, &answer)
     }
 
-    /// Sends a request again as long as the service is starting, stopping or busy with this very
-    /// request.
+    /// Repeats a request while the service is starting, stopping or busy with the same request.
     fn answer(
         &mut self,
         ask: impl Fn(&ureq::Agent, Option<&str>) -> Result<Response<Body>, ureq::Error>,
@@ -289,12 +287,12 @@ impl Client {
             .map_err(|error| self.wrong(&format!("{error} in {}", text())))
     }
 
-    /// The vertiport with an id in an answer.
+    /// The vertiport with an id from an answer.
     pub(super) fn vertiport(&self, id: &str) -> Result<VertiportIx, Error> {
         self.ids.vertiport(id).map_err(|_| self.wrong("an answer with an unknown vertiport"))
     }
 
-    /// The aircraft with an id in an answer.
+    /// The aircraft with an id from an answer.
     pub(super) fn aircraft(&self, id: &str) -> Result<AircraftIx, Error> {
         self.ids.aircraft(id).map_err(|_| self.wrong("an answer with an unknown aircraft"))
     }

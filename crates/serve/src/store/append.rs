@@ -1,5 +1,5 @@
-//! Events are stored: those of one append all or none, several appends together, and never on a day
-//! that is archived.
+//! Stores events: those of one append together or not at all, several appends at once, and never on
+//! a day that is archived.
 
 use sqlx::{AssertSqlSafe, query, query_scalar};
 
@@ -97,8 +97,8 @@ impl Store {
         Ok(())
     }
 
-    /// Whether the event with a number was stored by this append. An equal event may be there that
-    /// another service stored, so contents are not compared.
+    /// Whether this append stored the event with a number. Another service may have stored an equal
+    /// event, so contents are not compared.
     pub(crate) async fn is_stored_by(
         &self,
         append: AppendId,
@@ -111,8 +111,8 @@ impl Store {
         Ok(found == Some(append.0))
     }
 
-    /// The places of the values of some rows, `(?, ?), (?, ?)`; `PostgreSQL` has numbers in them.
-    /// `SQLite` would compare each number with all others.
+    /// The placeholders of the values of some rows, `(?, ?), (?, ?)`, with numbers for
+    /// `PostgreSQL`. `SQLite` would compare each number with all others.
     pub(super) fn places(&self, rows: usize, columns: usize) -> String {
         let place = |at: usize| if self.is_shared() { format!("${at}") } else { "?".to_owned() };
         let row = |row: usize| {

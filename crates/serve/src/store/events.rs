@@ -1,4 +1,4 @@
-//! Events are read: page by page as others ask for them, and quickly to be replayed.
+//! Reads events: page by page for clients, and quickly for a replay.
 
 use futures_util::TryStreamExt as _;
 use sqlx::any::AnyRow;
@@ -8,24 +8,24 @@ use super::{Store, as_i64};
 use crate::error::Error;
 use crate::taken_event::TakenEvent;
 
-/// Rows that are read at once.
+/// Number of rows that are read at once.
 pub(crate) const PAGE: u32 = 10_000;
-/// Events that are read at once to be replayed.
+/// Number of events that are read at once for a replay.
 const REPLAYED: u32 = 1_000;
-/// About this many bytes of events are read at once, so that neither long events nor many readers
-/// fill the memory.
+/// Approximate number of bytes of events that are read at once, so that neither long events nor
+/// many readers fill the memory.
 const PAGE_BYTES: usize = 4 << 20;
 
-/// Events of a day that follow each other.
+/// Consecutive events of a day.
 #[derive(Debug)]
 pub(crate) struct Page {
     pub(crate) events: Vec<TakenEvent>,
-    /// Whether no event follows them.
+    /// Whether these are the last ones.
     pub(crate) is_last: bool,
 }
 
 impl Store {
-    /// The events of a day after number `after`, at most `limit`, and fewer where they are long.
+    /// The events of a day after number `after`, at most `limit`, and fewer if they are long.
     pub(crate) async fn events(&self, day: &str, after: u64, limit: u32) -> Result<Page, Error> {
         self.in_time(self.read_events(day, after, limit)).await
     }
@@ -52,7 +52,7 @@ impl Store {
         Ok(Page { events, is_last })
     }
 
-    /// Some events of a day after number `after`, up to number `until`; none if none follow.
+    /// Some events of a day after number `after`, up to number `until`; none if there are none.
     pub(crate) async fn events_to_replay(
         &self,
         day: &str,
@@ -63,8 +63,8 @@ impl Store {
         self.in_time(self.read_to_replay(day, after, limit)).await
     }
 
-    /// The database returns the events as one row, which takes a third of the time of as many rows.
-    /// A long event comes alone.
+    /// The database returns the events as one row, which takes a third of the time of separate
+    /// rows. A long event is read alone.
     async fn read_to_replay(
         &self,
         day: &str,

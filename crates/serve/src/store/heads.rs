@@ -10,7 +10,7 @@ use sqlx::{Any, AssertSqlSafe, Row as _, Transaction, query, query_scalar};
 use super::{NewEvent, Store, as_i64, as_u64};
 use crate::error::Error;
 
-/// Days that are asked for at once.
+/// Number of days in one query.
 const MOST_AT_ONCE: usize = 1_000;
 
 /// The number and the checksum of a day's last event, and whether the day is archived.
@@ -18,7 +18,7 @@ const MOST_AT_ONCE: usize = 1_000;
 pub(crate) struct Head {
     /// The number of its latest event; 0 if it has none.
     pub(crate) seq: u64,
-    /// The sum over all its events.
+    /// The checksum over all its events.
     pub(crate) chain: u32,
     /// Whether the day is closed to writes.
     pub(crate) archived: bool,
@@ -41,8 +41,7 @@ impl Store {
         row.map(|row| head(&row).map(|(_, head)| head)).transpose()
     }
 
-    /// The heads of days by their ids. Days that are not there, or whose rows are damaged, are left
-    /// out.
+    /// The heads of days by their ids, without days that do not exist or whose rows are damaged.
     pub(crate) async fn heads(&self, days: &[String]) -> Result<HashMap<String, Head>, Error> {
         let mut heads = HashMap::new();
         for days in days.chunks(MOST_AT_ONCE) {
@@ -57,7 +56,7 @@ impl Store {
         Ok(heads)
     }
 
-    /// The sum over the log of a day up to an event; `None` if there is no such event.
+    /// The checksum over the log of a day up to an event; `None` if there is no such event.
     pub(crate) async fn chain_at(&self, day: &str, seq: u64) -> Result<Option<u32>, Error> {
         let select = "SELECT chain FROM events WHERE day = $1 AND seq = $2";
         let select = query_scalar(select).bind(day).bind(as_i64(seq));
@@ -66,8 +65,8 @@ impl Store {
         Ok(chain.and_then(|chain| u32::try_from(chain).ok()))
     }
 
-    /// The days of which there are events but no row, and those that were made and are gone
-    /// although they were not deleted.
+    /// The days that have events but no row, and those whose row is missing although they were not
+    /// deleted.
     pub(crate) async fn lost_days(&self) -> Result<Vec<String>, Error> {
         let select = "SELECT DISTINCT day FROM events WHERE day NOT IN (SELECT id FROM days)
              UNION SELECT target FROM audit WHERE action = 'day made'

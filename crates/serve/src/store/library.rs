@@ -1,10 +1,9 @@
-//! Networks and weights of policies that were uploaded, in the store, each with a description
-//! next to it.
+//! Uploaded networks and weights of policies in the store, each with a description.
 //!
-//! A description is what a program answered when it read the network or the weights, as JSON. It
-//! counts for that version of the program alone, and until what it describes is uploaded again, so
-//! that versions that share a database do not mislead each other. Without one, the network or the
-//! weights are read again.
+//! A description is the program's answer, as JSON, after it read the network or the weights. It is
+//! valid only for that version of the program and until the next upload, so that versions that
+//! share a database do not mislead each other. Without one, the service reads the network or the
+//! weights again.
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -13,10 +12,10 @@ use sqlx::{AnyConnection, query, query_as, query_scalar};
 use super::Store;
 use crate::error::Error;
 
-/// The version of the program, whose descriptions are read.
+/// The version of the program; only its descriptions are read.
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
 
-/// What is described.
+/// The kind of an upload.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// A network.
@@ -25,14 +24,14 @@ pub(crate) enum Kind {
     Policy,
 }
 
-/// Something that was uploaded, without it.
+/// An upload, without its content.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Uploaded<T> {
     /// Its name.
     pub(crate) name: String,
     /// When it was uploaded, milliseconds of the Unix clock.
     pub(crate) created_ms: i64,
-    /// What this version of the program said of it, if it has read it before.
+    /// The description by this version of the program, if it has one.
     pub(crate) description: Option<T>,
 }
 
@@ -68,7 +67,7 @@ impl Kind {
 }
 
 impl Store {
-    /// All that was uploaded of a kind, by its names.
+    /// All uploads of a kind, by their names.
     pub(crate) async fn uploaded<T: DeserializeOwned>(
         &self,
         kind: Kind,
@@ -79,7 +78,7 @@ impl Store {
                  LEFT JOIN descriptions AS said ON said.kind = $1 AND said.name = one.name
                  AND said.program = $2 AND said.created_ms = one.created_ms ORDER BY one.name"
             }
-            // A policy without weights was deleted; its name goes on to mean them.
+            // A policy without weights was deleted; its name stays reserved for them.
             Kind::Policy => {
                 "SELECT one.name, one.created_ms, said.description FROM policies AS one
                  LEFT JOIN descriptions AS said ON said.kind = $1 AND said.name = one.name
@@ -108,7 +107,7 @@ impl Store {
         Ok(usize::try_from(count).unwrap_or_default())
     }
 
-    /// Keeps what is said of something that was uploaded.
+    /// Stores the description of an upload.
     pub(crate) async fn describe(
         &self,
         kind: Kind,
@@ -120,7 +119,7 @@ impl Store {
         describe(&mut connection, kind, name, created_ms, description).await
     }
 
-    /// Adds a network, or puts it in the place of the one with its name.
+    /// Adds a network, or replaces the one with its name.
     pub(crate) async fn put_network(
         &self,
         network: &StoredNetwork,
@@ -156,7 +155,8 @@ impl Store {
         Ok(is_deleted)
     }
 
-    /// Adds a policy unless other weights have ever had its name. Returns what has the name then.
+    /// Adds a policy unless other weights have ever had its name. Returns the weights that have the
+    /// name.
     pub(crate) async fn add_policy(
         &self,
         policy: &StoredPolicy,
@@ -192,8 +192,8 @@ impl Store {
         Ok(query_scalar(select).bind(name).fetch_optional(&self.pool).await?)
     }
 
-    /// Removes the weights of a policy. Its name goes on to mean them, since logs of days name it.
-    /// Returns whether there was one.
+    /// Removes the weights of a policy. Its name stays reserved for them, since logs of days
+    /// contain it. Returns whether there was one.
     ///
     /// # Errors
     /// Returns [`Error::PolicyInUse`] if it decides on days that are not archived.
@@ -210,7 +210,7 @@ impl Store {
         Ok(is_deleted)
     }
 
-    /// Makes room: what is said of something that is not there is never read.
+    /// Frees space: descriptions of removed uploads are never read.
     async fn forget_descriptions(&self, kind: Kind, name: &str) -> Result<(), Error> {
         let delete = "DELETE FROM descriptions WHERE kind = $1 AND name = $2";
         query(delete).bind(kind.name()).bind(name).execute(&self.pool).await?;

@@ -1,5 +1,5 @@
-//! Notifications between services that share a `PostgreSQL` database: which days have changed
-//! (LISTEN and NOTIFY). Notices can be missed, so they only make things quicker.
+//! Notices between services that share a `PostgreSQL` database: which days have changed (LISTEN and
+//! NOTIFY). Notices can be lost, so they only save time.
 
 use std::str::FromStr as _;
 use std::time::Duration;
@@ -14,17 +14,17 @@ use crate::error::Error;
 /// The channel of the database.
 const CHANNEL: &str = "vertifleet_days";
 
-/// What has happened to a day.
+/// A change of a day.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct DayNotice {
     /// The id of the day.
     pub(crate) day: String,
-    /// The number of its latest event; `None` if it was archived, opened again or deleted.
+    /// The number of its latest event; `None` if it was archived, reopened or deleted.
     pub(crate) seq: Option<u64>,
 }
 
 impl DayNotice {
-    /// A day that was archived, opened again or deleted.
+    /// A day that was archived, reopened or deleted.
     pub(super) fn changed(day: &str) -> Self {
         Self { day: day.to_owned(), seq: None }
     }
@@ -47,8 +47,8 @@ impl DayNotice {
 pub(crate) struct Listener(PgListener);
 
 impl Listener {
-    /// The next notice; `None` if notices may have been missed, because the connection was lost or
-    /// none has come for `patience`.
+    /// The next notice; `None` if notices may have been lost, because the connection broke or none
+    /// has arrived for `patience`.
     ///
     /// # Errors
     /// Returns [`Error::Store`] if the database cannot be reached.
@@ -61,7 +61,7 @@ impl Listener {
 }
 
 impl Store {
-    /// Tells other services that use the store, once the transaction is committed.
+    /// Notifies other services that use the store, once the transaction is committed.
     pub(super) async fn notify(
         &self,
         transaction: &mut Transaction<'_, Any>,
@@ -82,7 +82,7 @@ impl Store {
         Ok(())
     }
 
-    /// A connection that hears what services tell each other; `None` if the store has one service.
+    /// A connection that receives the notices of services; `None` if the store has one service.
     ///
     /// # Errors
     /// Returns [`Error::Store`] if the database cannot be reached.

@@ -1,4 +1,4 @@
-//! A store is opened: reached, its tables made or brought up to date, its version checked.
+//! Opens a store: connects, creates or upgrades its tables, and checks its version.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -11,9 +11,9 @@ use super::server::{Server, TIMEOUT};
 use super::{DATABASE, Location, Store, VERSION};
 use crate::error::Error;
 
-/// Between two tries to reach a server.
+/// Interval between two tries to reach a server.
 const PAUSE: Duration = Duration::from_millis(100);
-/// The statements that make the tables.
+/// The statements that create the tables.
 const TABLES: [&str; 10] = [
     "CREATE TABLE IF NOT EXISTS meta (name TEXT PRIMARY KEY, value TEXT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS days (
@@ -21,7 +21,7 @@ const TABLES: [&str; 10] = [
         policy TEXT NOT NULL, date TEXT NOT NULL DEFAULT '',
         time_zone TEXT NOT NULL DEFAULT '', sum BIGINT NOT NULL DEFAULT -1,
         seq BIGINT NOT NULL DEFAULT 0, chain BIGINT NOT NULL DEFAULT 0)",
-    // Apart from the rows of days, which change with every event.
+    // A separate table from the rows of days, which change with every event.
     "CREATE TABLE IF NOT EXISTS scenarios (day TEXT PRIMARY KEY, scenario TEXT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS events (
         day TEXT NOT NULL, seq BIGINT NOT NULL, at_ms BIGINT NOT NULL, actor TEXT NOT NULL,
@@ -39,21 +39,21 @@ const TABLES: [&str; 10] = [
         name TEXT PRIMARY KEY, toml TEXT NOT NULL, created_ms BIGINT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS policies (
         name TEXT PRIMARY KEY, weights BYTEA NOT NULL, sha256 TEXT NOT NULL, created_ms BIGINT NOT NULL)",
-    // What programs say of networks and policies, so that listing them reads none of them. Anything
-    // in it may be missing.
+    // Descriptions of networks and policies, so that listing them does not read their content. Rows
+    // may be missing.
     "CREATE TABLE IF NOT EXISTS descriptions (
         kind TEXT NOT NULL, name TEXT NOT NULL, program TEXT NOT NULL, created_ms BIGINT NOT NULL,
         description TEXT NOT NULL, PRIMARY KEY (kind, name, program))",
 ];
 
-/// Of two tokens that are made with one name at the same moment, one is refused.
+/// If two tokens are made with one name at the same moment, one is refused.
 const ONE_NAME: &str =
     "CREATE UNIQUE INDEX IF NOT EXISTS tokens_in_force ON tokens (name) WHERE revoked_ms = 0";
 
-/// The lock of PostgreSQL under which tables are made: the letters of `fleet`.
+/// The lock of PostgreSQL under which tables are created: the letters of `fleet`.
 const LOCK: i64 = 0x66_6c65_6574;
 
-/// What stores of earlier versions lack, each with the version that lacked it last.
+/// The upgrades of older stores, each with the last version that needs it.
 const ADDED_AFTER: [(&str, &str); 10] = [
     ("1", "ALTER TABLE days ADD COLUMN date TEXT NOT NULL DEFAULT ''"),
     ("1", "ALTER TABLE days ADD COLUMN time_zone TEXT NOT NULL DEFAULT ''"),
@@ -76,14 +76,14 @@ const ADDED_AFTER: [(&str, &str); 10] = [
     ),
 ];
 
-/// The settings of each connection to `SQLite`: a log that readers do not wait for, written to the
-/// disk before a commit is answered.
+/// The settings of each connection to `SQLite`: a write-ahead log, so that readers do not wait,
+/// which is written to the disk before a commit is answered.
 const SQLITE: &str =
     "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA busy_timeout = 5000;
     PRAGMA foreign_keys = ON";
 
-/// A first connection, which says what is wrong; a pool would try again and again, and only say
-/// that it took too long. A server may be about to start, so it has a while.
+/// A first connection, which reports the error; a pool would retry and finally report only a
+/// timeout. A server may be about to start, so it has a while.
 async fn connect(url: &str, is_shared: bool) -> Result<AnyConnection, sqlx::Error> {
     let begun = Instant::now();
     loop {
@@ -94,13 +94,13 @@ async fn connect(url: &str, is_shared: bool) -> Result<AnyConnection, sqlx::Erro
     }
 }
 
-/// Begins a transaction, and makes the tables in it if there are none. Services that begin at the
+/// Begins a transaction, and creates the tables in it if there are none. Services that start at the
 /// same time wait for each other.
 async fn make_tables(
     database: &mut AnyConnection,
     is_shared: bool,
 ) -> Result<Transaction<'_, Any>, sqlx::Error> {
-    // SQLite lets a transaction write for certain only if it begins as one that writes.
+    // SQLite guarantees that a transaction can write only if it begins as one that writes.
     let begin = if is_shared { "BEGIN" } else { "BEGIN IMMEDIATE" };
     let mut transaction = database.begin_with(begin).await?;
     if is_shared {
@@ -115,7 +115,7 @@ async fn make_tables(
     Ok(transaction)
 }
 
-/// Adds to a store of an earlier version what it lacks.
+/// Upgrades a store of an earlier version.
 async fn bring_up_to_date(database: &mut AnyConnection) -> Result<(), Error> {
     query("INSERT INTO meta (name, value) VALUES ('version', $1) ON CONFLICT (name) DO NOTHING")
         .bind(VERSION)
@@ -144,11 +144,11 @@ async fn bring_up_to_date(database: &mut AnyConnection) -> Result<(), Error> {
 }
 
 impl Store {
-    /// Opens a store, and makes its tables if there are none.
+    /// Opens a store, and creates its tables if there are none.
     ///
     /// # Errors
     /// Returns [`Error::Store`] if the database cannot be reached, [`Error::BadDatabase`] if it is
-    /// none of `PostgreSQL`, and [`Error::BadData`] if a newer program wrote it.
+    /// not a `PostgreSQL` database, and [`Error::BadData`] if a newer program wrote it.
     pub(crate) async fn open(location: &Location) -> Result<Self, Error> {
         if let Location::Postgres(url) = location
             && !["postgres://", "postgresql://"].iter().any(|scheme| url.starts_with(scheme))
@@ -156,12 +156,12 @@ impl Store {
             return Err(Error::BadDatabase);
         }
         install_default_drivers();
-        // What fails in a transaction may leave a connection in an unusable state: when a disk is
-        // full, SQLite ends the transaction, and all that came after would be part of one
-        // that is never committed.
+        // A failure in a transaction may leave a connection in an unusable state: when a disk is
+        // full, SQLite ends the transaction, and all later statements would be part of one that is
+        // never committed.
         let mut options = AnyPoolOptions::new()
             .max_connections(8)
-            // Longer than a question may take, which then ends first.
+            // Longer than the limit of a query, which then ends first.
             .acquire_timeout(2 * TIMEOUT)
             .before_acquire(|connection, _| {
                 let is_free = !connection.is_in_transaction();
@@ -196,10 +196,10 @@ impl Store {
         Ok(Self { pool: options.connect(&url).await?, server })
     }
 
-    /// Opens a store that must be there.
+    /// Opens a store that must exist.
     ///
     /// # Errors
-    /// Returns [`Error::Store`] if it is not, and the errors of [`open`](Self::open).
+    /// Returns [`Error::Store`] if it does not, and the errors of [`open`](Self::open).
     pub(crate) async fn open_existing(location: &Location) -> Result<Self, Error> {
         if let Location::Folder(folder) = location {
             let file = folder.join(DATABASE);
@@ -239,7 +239,7 @@ fn of_opening(error: sqlx::Error) -> Error {
     }
 }
 
-/// Makes a folder that its owner alone can read, unless it is there.
+/// Creates a folder that only its owner can read, unless it exists.
 pub(crate) fn make_folder(folder: &Path) -> std::io::Result<()> {
     let mut builder = std::fs::DirBuilder::new();
     #[cfg(unix)]
@@ -251,7 +251,7 @@ pub(crate) fn make_folder(folder: &Path) -> std::io::Result<()> {
     builder.recursive(true).create(folder)
 }
 
-/// The address of a file, in which marks that mean something in addresses are written as numbers.
+/// The address of a file, with percent-encoding of characters that have a meaning in addresses.
 fn sqlite_url(path: &Path) -> String {
     let path = path.display().to_string();
     let path = path.replace('%', "%25").replace('?', "%3F").replace('#', "%23");

@@ -1,5 +1,5 @@
 //! The server of a database that other processes may use too. It may hang and keep its connections
-//! open, which nothing else notices.
+//! open; only a time limit detects that.
 
 use std::fmt;
 use std::sync::Arc;
@@ -11,13 +11,13 @@ use crate::error::Error;
 
 /// A server that does not answer within this time hangs.
 pub(super) const TIMEOUT: Duration = Duration::from_secs(5);
-/// How long the server is asked nothing after that, so that a request with several questions waits
-/// for one of them only.
+/// How long the server is not queried after that, so that a request with several queries waits for
+/// one of them only.
 const PAUSE: Duration = Duration::from_secs(1);
 
 #[derive(Clone)]
 pub(super) struct Server {
-    /// Its address, which may have a password in it.
+    /// Its address, which may contain a password.
     pub(super) url: Arc<str>,
     /// When it last failed to answer in time.
     hung: Arc<LastTime>,
@@ -48,11 +48,11 @@ impl Server {
 }
 
 impl Store {
-    /// The outcome of a question to the database.
+    /// The outcome of a query.
     ///
     /// # Errors
-    /// Returns [`Error::StoreHangs`] if a server has not answered for [`TIMEOUT`]. It may still do
-    /// what it was asked for.
+    /// Returns [`Error::StoreHangs`] if a server has not answered for [`TIMEOUT`]. It may still
+    /// carry the query out.
     pub(super) async fn in_time<T, E>(
         &self,
         outcome: impl Future<Output = Result<T, E>>,

@@ -1,4 +1,4 @@
-//! Tokens in the store, as hashes, and the record of all actions other than the events of days.
+//! Tokens in the store, as hashes, and the audit of actions other than events of days.
 
 use serde::Serialize;
 use sqlx::any::AnyRow;
@@ -8,17 +8,16 @@ use super::Store;
 use crate::error::Error;
 use crate::tokens::{Role, StoredToken};
 
-/// An action other than the events of days.
+/// An action other than an event of a day.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct AuditRecord {
     /// When, milliseconds of the Unix clock.
     pub at_ms: i64,
-    /// The name of the token that it was done with; empty without tokens, and for what was done at
-    /// the machine.
+    /// The name of the token of the request; empty without tokens, and for actions at the machine.
     pub actor: String,
-    /// What was done, for example `day deleted`.
+    /// The action, for example `day deleted`.
     pub action: String,
-    /// The id or the name of what it was done to.
+    /// The id or the name of its target.
     pub target: String,
 }
 
@@ -39,7 +38,7 @@ impl Store {
         Ok(())
     }
 
-    /// All tokens, those that were revoked among them.
+    /// All tokens, including revoked ones.
     pub(crate) async fn tokens(&self) -> Result<Vec<StoredToken>, Error> {
         let select = "SELECT id, name, role, hash, created_ms, revoked_ms FROM tokens ORDER BY created_ms, id";
         let select = query(select).fetch_all(&self.pool);
@@ -47,7 +46,7 @@ impl Store {
         rows.iter().map(stored_token).collect()
     }
 
-    /// The actions other than the events of days, in order.
+    /// The actions other than events of days, in order.
     pub(crate) async fn audit(&self) -> Result<Vec<AuditRecord>, Error> {
         let select = "SELECT at_ms, actor, action, target FROM audit ORDER BY at_ms";
         let rows = query_as(select).fetch_all(&self.pool).await?;
@@ -75,7 +74,7 @@ impl Store {
     }
 }
 
-/// Records an action in a transaction, so that neither is there without the other.
+/// Records an action in the transaction that performs it, so that neither exists without the other.
 pub(super) async fn record(
     connection: &mut AnyConnection,
     actor: &str,

@@ -1,5 +1,5 @@
-//! What a study is asked for, and the checks before it waits for its turn, so that errors are
-//! reported at once.
+//! The request of a study, and the checks before it waits for its turn, so that errors are reported
+//! at once.
 
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -15,41 +15,41 @@ use crate::policies::Policies;
 use crate::store::Store;
 use crate::turns::Turns;
 
-/// Policies of a study.
+/// Largest number of policies of a study.
 const MOST_POLICIES: usize = 10;
-/// Days of a study.
+/// Largest number of days of a study.
 const MOST_DAYS: u32 = 1_000;
-/// Entries of the demand of all days together, which are in memory at once.
+/// Largest number of demand entries of all days together, which are in memory at once.
 const MOST_ENTRIES: u64 = 20_000_000;
 
-/// A study to be made.
+/// A study to make.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct NewStudy {
     /// A network that the program ships, or that was uploaded.
     network: Option<String>,
-    /// The text of a network file in place of a name. It is not kept.
+    /// The text of a network file in place of a name. It is not stored.
     toml: Option<String>,
-    /// The policies that play the days. The others are measured against the first. `plan` is the
-    /// planner, which knows the days: a reference, not a policy.
+    /// The policies that play the days. The others are compared with the first. `plan` is the
+    /// planner, which knows the days in advance: a reference, not a policy.
     #[schema(min_items = 1, max_items = 10)]
     policies: Vec<String>,
-    /// How many days are played.
+    /// The number of days.
     #[schema(format = Int64, minimum = 1, maximum = 1_000)]
     days: u32,
     /// The seed of the first day, which is that of `random` and `plan` too; with validation days,
     /// the number of the first. 1 if it is absent.
     #[schema(maximum = 1_099_511_627_775u64)]
     seed: Option<u64>,
-    /// Whose days are played.
+    /// The purpose of the days.
     #[serde(default)]
     split: Split,
-    /// Whether every day gets an upper bound, which takes long on large networks.
+    /// Whether to prove an upper bound for every day, which takes long on large networks.
     #[serde(default)]
     bounds: bool,
 }
 
-/// Whose days are played. No day belongs to both.
+/// The purpose of days. No day has both.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Split {
@@ -84,11 +84,11 @@ pub(crate) struct Asked {
 }
 
 impl NewStudy {
-    /// Checks all that can be checked before days are played.
+    /// Checks everything that can be checked before days are played.
     ///
     /// # Errors
-    /// Returns [`Error::BadRequest`], [`Error::TooMuch`], [`Error::NotFound`], or what is wrong
-    /// with the network or the policies.
+    /// Returns [`Error::BadRequest`], [`Error::TooMuch`], [`Error::NotFound`], or the error in the
+    /// network or the policies.
     pub(crate) async fn check(
         self,
         store: &Store,
@@ -130,7 +130,7 @@ impl NewStudy {
 }
 
 impl Asked {
-    /// Everything that can be checked with one of the days, and what is to be said about it.
+    /// Checks the study on one of its days, and returns the warnings.
     fn tried(mut self) -> Result<Self, Error> {
         self.drawn.check()?;
         let days = DrawnDays { days: self.drawn.days.min(1), ..self.drawn };
@@ -159,8 +159,8 @@ impl Asked {
         Comparison::new(&self.network, &selection, days, self.bound_step, stop)
     }
 
-    /// The command that plays the same study. Networks and weights of one's own are named as they
-    /// are downloaded.
+    /// The command that runs the same study. Networks and weights of the user have the names of
+    /// their downloads.
     pub(super) fn command(&self) -> String {
         let DrawnDays { first, days, .. } = self.drawn;
         let (name, policies) = (self.network.name(), self.policies.join(","));

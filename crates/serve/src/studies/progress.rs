@@ -1,4 +1,4 @@
-//! How far a study has come: its bounds first, then one policy after the other, each on all days.
+//! The progress of a study: its bounds first, then one policy after the other, each on all days.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,24 +12,24 @@ use vertifleet_study::{PolicyRecord, Watch};
 use super::result::Estimate;
 use super::{Stage, Study, lock};
 
-/// How far a study has come.
+/// The progress of a study.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub(crate) struct StudyProgress {
     /// The policy that plays, or `bounds` while days are bounded; absent while days are drawn.
     #[serde(skip_serializing_if = "Option::is_none")]
     doing: Option<String>,
-    /// The share of all that is to be played that has been, 0 to 1; every policy counts the same.
+    /// The share of the work that is done, 0 to 1; every policy counts the same.
     share: f64,
-    /// How much longer it is likely to play, seconds: the rest of this policy as quick as its days
-    /// so far, the others as quick as those before them on the mean. Absent until a day has been
-    /// played.
+    /// Expected remaining time, seconds. It assumes that the rest of this policy takes as long per
+    /// day as its days so far, and the others as long as the mean of those before. Absent until a
+    /// day has been played.
     #[serde(skip_serializing_if = "Option::is_none")]
     left_s: Option<f64>,
-    /// What came out for the policies that have played all their days.
+    /// The results of the policies that have played all their days.
     played: Vec<PlayedPolicy>,
 }
 
-/// What came out for a policy while others still play.
+/// The result of a policy while others still play.
 #[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
 pub(crate) struct PlayedPolicy {
     /// Its name.
@@ -38,12 +38,12 @@ pub(crate) struct PlayedPolicy {
     profit_usd: Estimate,
 }
 
-/// How far a study has come, as it is kept: each phase is the bounds or a policy.
+/// The progress of a study in memory: each phase is the bounds or a policy.
 #[derive(Debug)]
 pub(super) struct Progress {
     begun: Instant,
     phases: usize,
-    /// The number of phases that are over.
+    /// The number of finished phases.
     over: usize,
     phase: Option<Phase>,
     played: Vec<PlayedPolicy>,
@@ -63,12 +63,12 @@ impl Progress {
         Self { begun: Instant::now(), phases, over: 0, phase: None, played: Vec::new() }
     }
 
-    /// The next phase begins. Returns what counts its days.
+    /// Begins the next phase. Returns the counter of its days.
     fn begin(&mut self, doing: &str, days: usize) -> Arc<AtomicUsize> {
         let begun = Instant::now();
         let done = Arc::new(AtomicUsize::new(0));
         match self.phase {
-            // Time for drawing days is none of a policy's.
+            // Time for drawing days counts for no policy.
             None => self.begun = begun,
             Some(_) => self.over += 1,
         }
@@ -76,7 +76,7 @@ impl Progress {
         done
     }
 
-    /// What can be said now.
+    /// The current progress.
     pub(super) fn now(&self) -> StudyProgress {
         let Some(Phase { doing, begun, days, done }) = &self.phase else {
             return StudyProgress { doing: None, share: 0.0, left_s: None, played: Vec::new() };
@@ -88,7 +88,7 @@ impl Progress {
         StudyProgress { doing: Some(doing.clone()), share, left_s, played: self.played.clone() }
     }
 
-    /// How much longer it takes, if the share `done` of this phase took `so_far` and all phases
+    /// The expected remaining time, if the share `done` of this phase took `so_far` and all phases
     /// before it took `before`.
     fn left_s(&self, done: f64, before: Duration, so_far: Duration) -> Option<f64> {
         let (before_s, so_far_s) = (before.as_secs_f64(), so_far.as_secs_f64());
@@ -103,7 +103,7 @@ impl Progress {
     }
 }
 
-/// A study that is told how far it has come.
+/// A study that receives its progress.
 pub(super) struct Watched(pub(super) Arc<Study>);
 
 impl Watched {

@@ -1,5 +1,5 @@
-//! What came out of a study, as it is answered: numbers of `vertifleet compare --json`, and those
-//! of each day.
+//! The result of a study in answers: the numbers of `vertifleet compare --json`, and those of each
+//! day.
 
 use serde::Serialize;
 use utoipa::ToSchema;
@@ -7,54 +7,54 @@ use vertifleet_study::comparison::PolicySummary;
 use vertifleet_study::statistics::{self, PairedTest};
 use vertifleet_study::{ComparisonReport, Sees};
 
-/// What came out of a study. Amounts and counts are means a day.
+/// The result of a study. Amounts and counts are means per day.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct StudyResult {
     /// The version of the program that played it.
     program_version: &'static str,
-    /// The seed of the first day; the others follow one by one.
+    /// The seed of the first day; the others have the following seeds.
     first_seed: u64,
-    /// Upper bound of a day's profit, dollars, if bounds were asked for. No schedule earns more;
-    /// proven, not estimated.
+    /// Upper bound of a day's profit, dollars, if bounds were requested. No schedule earns more; it
+    /// is proven, not estimated.
     #[serde(skip_serializing_if = "Option::is_none")]
     upper_bound_usd: Option<Estimate>,
-    /// Every policy, in the order in which they were asked for.
+    /// Every policy, in the order of the request.
     policies: Vec<PolicyResult>,
 }
 
-/// What came out for one policy. Amounts and counts are means a day.
+/// The result of one policy. Amounts and counts are means per day.
 #[derive(Debug, Clone, Serialize, ToSchema)]
 pub(crate) struct PolicyResult {
     /// Its name.
     name: String,
-    /// What it does.
+    /// A description of the policy.
     description: String,
-    /// What it looks at: `present`, `forecast` or `whole-day`.
+    /// The information that it uses: `present`, `forecast` or `whole-day`.
     #[schema(value_type = String)]
     sees: Sees,
     /// Profit, dollars.
     profit_usd: Estimate,
-    /// Profit as a share of the day's upper bound, if bounds were asked for.
+    /// Profit as a share of the day's upper bound, if bounds were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     bound_share: Option<Estimate>,
-    /// By how much it earns more than the first policy; absent for the first.
+    /// Its lead over the first policy; absent for the first.
     #[serde(skip_serializing_if = "Option::is_none")]
     minus_first: Option<Difference>,
     /// Fares, dollars.
     revenue_usd: f64,
-    /// What carrying passengers costs, dollars.
+    /// Cost of carrying passengers, dollars.
     passenger_cost_usd: f64,
-    /// What energy costs, dollars.
+    /// Cost of energy, dollars.
     energy_cost_usd: f64,
-    /// What flights cost with or without passengers, dollars.
+    /// Cost of flights, with or without passengers, dollars.
     flight_cost_usd: f64,
-    /// What the fleet costs whatever it does, dollars.
+    /// Fixed cost of the fleet, dollars.
     aircraft_cost_usd: f64,
-    /// What stands and chargers cost whether or not they are used, dollars.
+    /// Fixed cost of stands and chargers, dollars.
     site_cost_usd: f64,
     /// Passengers who were carried.
     passengers: f64,
-    /// Passengers who were not.
+    /// Passengers who were not carried.
     spilled_passengers: f64,
     /// Passenger-miles over seat-miles, 0 to 1.
     load_factor: f64,
@@ -85,7 +85,8 @@ pub(crate) struct Estimate {
 pub(crate) struct Difference {
     /// The difference.
     profit_usd: Estimate,
-    /// The chance of a difference as large as this if there were none (two-sided); null with one
+    /// The p-value: the probability of a difference at least as large as this if there were none
+    /// (two-sided); null with one day.
     /// day.
     p_value: Option<f64>,
     /// Days on which it earned more.
@@ -95,7 +96,7 @@ pub(crate) struct Difference {
 }
 
 impl StudyResult {
-    /// What a comparison says of the policies with these names, the first of which is the
+    /// The results of a comparison for the policies with these names, the first of which is the
     /// reference.
     pub(super) fn of(report: &ComparisonReport, policies: &[String]) -> Self {
         let named = |name: &String| report.policies.iter().find(|policy| policy.name == *name);

@@ -1,5 +1,5 @@
-//! Policies decide on whatever state reality has brought about, such as vertiports with more
-//! aircraft than stands.
+//! Policies decide in every state that reports can lead to, such as vertiports with more aircraft
+//! than stands.
 
 use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ const POLICIES: [&str; 6] =
 const DAYS: u64 = 72;
 const REPORTS: u32 = 40;
 
-/// Numbers that look random and are the same every time.
+/// Numbers that look random and are the same in every run.
 struct Draws {
     seed: u64,
     drawn: u32,
@@ -58,7 +58,7 @@ impl Draws {
     }
 }
 
-/// Asks every policy about every aircraft that is ready.
+/// Requests a proposal of every policy for every ready aircraft.
 fn ask_all(live: &mut LiveDay, policies: &mut [(&str, Box<dyn Policy>)]) -> u32 {
     let mut asked = 0;
     let mut room = None;

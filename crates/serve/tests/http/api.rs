@@ -1,4 +1,4 @@
-//! The API as its users see it.
+//! Tests of the API as its users call it.
 
 use std::io::{BufRead as _, BufReader};
 
@@ -226,7 +226,7 @@ fn tokens_say_who_may_do_what_and_who_did_it() {
     let read = tokens.make("auditor", Role::Read).expect("a token");
     let dispatch = tokens.make("console", Role::Dispatch).expect("a token");
     let admin = tokens.make("operations", Role::Admin).expect("a token");
-    // The service looks for tokens every two seconds.
+    // The service reads the tokens every two seconds.
     std::thread::sleep(std::time::Duration::from_millis(2_100));
     let ask = |method: &str, path: &str, token: &str, body: &str| {
         let bearer = format!("Bearer {token}");

@@ -1,4 +1,4 @@
-//! Days that are archived, opened again and deleted, each where the client expects the day to be.
+//! Archives, reopens and deletes days, each at the event that the client expects.
 
 use std::io::{BufRead as _, BufReader};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -145,7 +145,7 @@ fn services_that_share_a_database_agree_on_what_is_archived() {
     let day = one.new_day("greedy");
     assert_eq!(clock(&one, &day).status, 201);
     assert_eq!(clock(&two, &day).status, 201);
-    // The one does not know yet what the other has added, or has it only just been told.
+    // The other service may not have received the change yet.
     assert_eq!(change(&one, "POST", &format!("{day}/archive"), "1"), (412, json!("V605")));
     assert_eq!(change(&one, "POST", &format!("{day}/archive"), "2").0, 204);
     assert_eq!(clock(&two, &day).json["code"], "V608");

@@ -1,10 +1,10 @@
-//! Decisions that are taken back.
+//! Decisions that are cancelled.
 
 use serde_json::{Value, json};
 
 use crate::api::{service, text};
 
-/// Everything of a state but the number of its event.
+/// A state without the number of its event.
 fn without_seq(mut state: Value) -> Value {
     state.as_object_mut().expect("an object").remove("seq");
     state

@@ -1,4 +1,4 @@
-//! Spans of requests as a collector of OpenTelemetry gets them.
+//! Spans of requests as an OpenTelemetry collector receives them.
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
 use std::net::{Ipv4Addr, TcpListener};
@@ -19,8 +19,8 @@ use crate::running::{Running, bearers, folder, settings_for};
 const TRACE: &str = "0af7651916cd43dd8448eb211c80319c";
 const CALLER: &str = "b7ad6b7169203331";
 
-/// A collector, by its address and the batches that it gets: the first line of each request and its
-/// body.
+/// A collector, by its address and the batches that it receives: the first line of each request and
+/// its body.
 fn collector() -> (String, Receiver<(String, Vec<u8>)>) {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
     let address = format!("http://{}", listener.local_addr().expect("an address"));
@@ -31,8 +31,8 @@ fn collector() -> (String, Receiver<(String, Vec<u8>)>) {
             std::thread::spawn(move || {
                 let mut socket = BufReader::new(socket.expect("a connection"));
                 while let Some(batch) = batch(&mut socket) {
-                    // First of all it is kept: the service may end as soon as it is answered, and
-                    // the test looks then.
+                    // The batch is stored before the answer: the service may end after the answer,
+                    // and the test looks then.
                     if taken.send(batch).is_err() {
                         return;
                     }
@@ -88,7 +88,7 @@ fn requests_become_spans_within_the_traces_of_their_callers() {
     let (_folder, location) = folder();
     let bearer = bearers(&location)("console", Role::Dispatch);
     let service = Running::start_as(Settings {
-        // A slash at the end is no part of the address.
+        // A slash at the end is not part of the address.
         collector: Some(format!("{address}/")),
         ..settings_for(location)
     });
@@ -107,7 +107,7 @@ fn requests_become_spans_within_the_traces_of_their_callers() {
     let unsampled = format!("00-{TRACE}-{CALLER}-00");
     service.send("GET", "/v1/days", &[headers[0], ("traceparent", &unsampled)], b"");
     service.get("/nowhere");
-    // What has not been sent is sent when the service stops.
+    // Unsent spans are sent when the service stops.
     drop(service);
 
     let received: Vec<_> = batches.try_iter().collect();
@@ -159,7 +159,7 @@ fn a_collector_that_has_gone_holds_up_no_request() {
     for address in [silent_address, gone_address] {
         let (_folder, service) = observed(format!("http://{address}"));
         let begun = Instant::now();
-        // More than the queue of spans takes. If each waited for the collector, they would take
+        // More than the queue of spans holds. If each waited for the collector, they would take
         // hours.
         for _ in 0..3_000 {
             assert_eq!(service.get("/healthz").status, 200);

@@ -1,4 +1,4 @@
-//! The console comes from the service, to anybody; what it shows needs a token as ever.
+//! The console is public; its data needs a token.
 
 use vertifleet_core::{Coded as _, Stop};
 use vertifleet_serve::{Location, Role, Settings, Tokens, serve};

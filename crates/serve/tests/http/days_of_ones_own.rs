@@ -1,5 +1,5 @@
-//! Days that are not drawn from seeds: with networks, forecasts, places and dates of one's own, and
-//! policies too.
+//! Days that are not drawn from seeds: with the user's networks, forecasts, places, dates and
+//! policies.
 
 use serde_json::{Value, json};
 use vertifleet_core::Network;
@@ -184,7 +184,8 @@ fn a_policy_of_ones_own_decides() {
     let put = service.send("PUT", "/v1/policies/ours-2026", &[], &weights);
     assert_eq!(put.status, 200, "{put:?}");
     let sum = put.json["weights_sha256"].clone();
-    // The same again is no news; other weights under the same name would make the log of a day lie.
+    // The same weights again change nothing; other weights under the same name would falsify the
+    // log of a day.
     assert_eq!(service.send("PUT", "/v1/policies/ours-2026", &[], &weights).status, 200);
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/paper/mlp.safetensors");
     let others = std::fs::read(path).expect("the shipped weights");
@@ -207,7 +208,7 @@ fn a_policy_of_ones_own_decides() {
     let outlook = service.get(&format!("{day}/outlook")).json;
     assert_eq!(outlook["policy"], "ours-2026");
     assert_eq!(service.get("/v1/policies/ours-2026").json["vertiports"], Value::Null);
-    // It cannot be taken from a day that it decides on, and its name means these weights for good.
+    // It cannot be deleted while a day uses it, and its name means these weights permanently.
     let needed = service.send("DELETE", "/v1/policies/ours-2026", &[], b"");
     assert_eq!(needed.problem(), (409, "V630"), "{needed:?}");
     assert_eq!(service.post(&format!("{day}/archive"), &json!({})).status, 204);

@@ -1,5 +1,5 @@
-//! Requests at the edge of what the description of the API allows: the service draws the line where
-//! the description does.
+//! Requests at the limits of the API's description: the service accepts and refuses them as the
+//! description states.
 
 use serde_json::{Value, json};
 
@@ -34,7 +34,7 @@ fn what_comes_after_an_event_that_was_not_is_not_found() {
     }
     assert_eq!(service.get(&format!("{day}/events?after=1")).json["events"], json!([]));
     assert_eq!(service.get(&format!("{day}/state?seq=1")).status, 200);
-    // Whatever is not read is refused too.
+    // Unread parts are checked too.
     let path = format!("{day}/stream?after=9223372036854775808");
     assert_eq!(service.send("GET", &path, &[("last-event-id", "0")], b"").status, 400);
     for (id, status) in [("2", 404), ("abc", 400), ("9223372036854775808", 400)] {

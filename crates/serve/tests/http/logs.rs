@@ -1,5 +1,4 @@
-//! Logs that are not what they were: events and days that are missing, and days that were put back
-//! from a copy.
+//! Damaged logs: events and days that are missing, and days that were restored from a copy.
 
 use std::io::{BufRead as _, BufReader};
 use std::path::Path;
@@ -11,7 +10,7 @@ use vertifleet_serve::{Keeper, Location, restore};
 use crate::api::service;
 use crate::running::Running;
 
-/// Changes the database behind the back of the service.
+/// Changes the database without the service.
 fn tamper(folder: &Path, statement: &'static str) {
     sqlx::any::install_default_drivers();
     let url = format!("sqlite://{}", folder.join("vertifleet.db").display());
@@ -24,7 +23,7 @@ fn tamper(folder: &Path, statement: &'static str) {
     });
 }
 
-/// What `serve verify` finds about the data in a folder.
+/// The findings of `serve verify` about the data in a folder.
 fn findings(folder: &Path) -> Vec<String> {
     let keeper = Keeper::open(&Location::Folder(folder.to_owned())).expect("data");
     let mut findings = Vec::new();

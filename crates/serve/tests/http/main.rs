@@ -1,4 +1,4 @@
-//! The service over HTTP, as its users meet it.
+//! Tests of the service over HTTP.
 
 mod any_state;
 mod api;

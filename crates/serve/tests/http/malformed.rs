@@ -1,4 +1,4 @@
-//! Requests that make no sense: each gets an answer with a code, and the day stays as it is.
+//! Invalid requests: each gets an answer with a code, and the day does not change.
 
 use serde_json::{Value, json};
 

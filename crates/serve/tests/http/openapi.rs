@@ -1,4 +1,4 @@
-//! The description of the API in the book is the one that the service gives.
+//! The description of the API in the book equals the one that the service returns.
 //!
 //! `VERTIFLEET_UPDATE=1 cargo t -p vertifleet-serve --test http openapi` writes it again.
 

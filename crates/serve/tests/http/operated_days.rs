@@ -1,4 +1,4 @@
-//! Whole days through HTTP: what the operator reports makes the simulated day, to the cent.
+//! Whole days over HTTP: the operator's reports reproduce the simulated day, to the cent.
 
 use std::sync::Arc;
 
@@ -38,7 +38,7 @@ fn operation(service: &Running, day: &Arc<Scenario>, policy: &str) -> Operation 
 fn a_live_day_is_the_simulated_day_to_the_cent() {
     let (_folder, service) = service();
     let policies = |network| match network {
-        // Its roll-outs depend on what is known of delays.
+        // Its roll-outs depend on the known distribution of delays.
         "disrupted" => ["gcaps-x", "rolling"],
         _ => ["gcaps-x", "greedy"],
     };
@@ -82,7 +82,7 @@ fn a_day_that_others_decide_is_the_simulated_day_to_the_cent() {
 #[test]
 fn people_decide_in_an_order_of_their_own_and_change_their_minds() {
     let (_folder, service) = service();
-    // Few stands, so that it matters who is sent off first.
+    // Few stands, so that the order of departures matters.
     let text =
         include_str!("../../../../networks/paper.toml").replacen("stands = 6", "stands = 5", 5);
     let network = Network::from_toml(&text, "fewer stands").expect("a network");
@@ -95,8 +95,8 @@ fn people_decide_in_an_order_of_their_own_and_change_their_minds() {
     assert_eq!(state["notices"], json!([]), "every flight departed and landed as it should");
 }
 
-/// Operates a day on which people decide: `decide` is called with the path of the day, its state
-/// and the number of the look at it, as long as the day lasts.
+/// Operates a day on which people decide. Until the day is over, `decide` is called with the path
+/// of the day, its state and the number of the call.
 fn operated_by_hand(
     service: &Running,
     day: &Arc<Scenario>,
@@ -113,8 +113,8 @@ fn operated_by_hand(
             let Some(id) = days["days"][0]["id"].as_str() else { continue };
             let day = format!("/v1/days/{id}");
             let state = service.state(&day);
-            // Before the operator has said who waits in the morning, the day only knows whom it
-            // expects.
+            // Before the operator has reported which aircraft wait in the morning, the day contains
+            // only the expected ones.
             if state["seq"] != 0 {
                 decide(&day, &state, look);
             }
@@ -130,7 +130,7 @@ fn waiting(state: &Value) -> impl DoubleEndedIterator<Item = &Value> {
     aircraft.iter().filter(|one| one["needs_decision"] == true)
 }
 
-/// Decides for all who wait, the last first. Now and then it takes a decision back and lets the
+/// Decides for all waiting aircraft, the last first. Sometimes it cancels a decision and lets the
 /// aircraft hold.
 fn decide_backwards(service: &Running, day: &str, state: &Value, look: u32) {
     for waiting in waiting(state).rev() {
@@ -138,7 +138,7 @@ fn decide_backwards(service: &Running, day: &str, state: &Value, look: u32) {
         assert_eq!(service.decide(day, &json!({ "aircraft": aircraft })).status, 201);
         if look.is_multiple_of(5) {
             let undone = json!({ "type": "undone", "aircraft": aircraft });
-            // The operator may have been quicker, and have said that it departed.
+            // The operator may have reported the departure before.
             if service.event(day, &undone).status == 201 {
                 let place = &waiting["place"];
                 service.decide(day, &json!({"aircraft": aircraft, "to": place, "reason": "wait"}));
@@ -147,7 +147,7 @@ fn decide_backwards(service: &Running, day: &str, state: &Value, look: u32) {
     }
 }
 
-/// Decides for every aircraft that is ready, as the policy of the day would.
+/// Decides for every ready aircraft, as the policy of the day would.
 fn decide_all(service: &Running, day: &str, state: &Value) {
     for waiting in waiting(state) {
         let taken = service.decide(day, &json!({ "aircraft": waiting["id"] }));

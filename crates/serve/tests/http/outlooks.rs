@@ -1,4 +1,4 @@
-//! How days are expected to go on, from now and from moments that have passed.
+//! Expected rests of days, from now and from earlier moments.
 
 use std::io::Write as _;
 use std::net::TcpStream;
@@ -102,6 +102,6 @@ fn outlooks_whose_clients_have_gone_keep_no_turn() {
         abandoned.write_all(head.as_bytes()).expect("sent");
         std::thread::sleep(Duration::from_millis(200));
     }
-    // With the turns kept, this would wait for minutes, and be refused.
+    // If the turns were held, this would wait for minutes, and be refused.
     assert_eq!(service.get(&format!("{day}/outlook")).status, 200);
 }

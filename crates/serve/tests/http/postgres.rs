@@ -18,7 +18,7 @@ fn location(database: &Postgres) -> Location {
     Location::Postgres(database.url())
 }
 
-/// Sends an event with a mark, as its key too, until it is acknowledged.
+/// Sends an event with a mark, which is also its key, until it is acknowledged.
 fn write(service: &Running, path: &str, mark: &str) {
     let body = json!({"type": "out_of_service", "aircraft": "A40", "reason": mark}).to_string();
     let begun = Instant::now();
@@ -49,7 +49,7 @@ fn two_services_share_a_database() {
     // A whole day through one of them.
     let paper = day("paper", 2_002);
     assert_eq!(operated(&one, &paper, "greedy").totals, simulated(&paper, "greedy"));
-    // Both write to one day, and each sees what the other wrote.
+    // Both write to one day, and each returns the other's events.
     let path = one.new_day("greedy");
     let decide =
         |service: &Running, aircraft: &str| service.decide(&path, &json!({"aircraft": aircraft}));
@@ -73,7 +73,7 @@ fn two_services_share_a_database() {
     assert_eq!((marks.len(), one.get(&path).json["seq"].as_u64()), (100, Some(102)));
 }
 
-/// An event that clients send again and again without a difference.
+/// An event that clients send repeatedly, without any difference.
 const BOOKED: &[u8] =
     br#"{"type": "booked", "period": "07:00:00", "from": "V1", "to": "V2", "passengers": 1}"#;
 
@@ -148,7 +148,7 @@ fn a_new_day_that_is_asked_for_at_two_services_with_one_key_is_made_once() {
             [together(&services[0]), others.join().expect("it is answered")]
         });
         assert!(answers.iter().all(|answer| matches!(answer.status, 201 | 409)), "{answers:?}");
-        // Sent again, the request has the answer of the day that was made.
+        // A repeated request gets the answer with the existing day.
         let [one, other] = services.each_ref().map(|service| make(service).json["id"].clone());
         assert!(one.is_string() && one == other, "{one} {other}");
         let days = services[0].get("/v1/days").json["days"].as_array().expect("a list").len();
@@ -227,9 +227,9 @@ fn services_that_start_together_make_the_tables_once() {
     }
 }
 
-/// Has four clients write to a day of two services, each event once it has been told that the one
-/// before is stored, while something happens to the database. Checks that every acknowledged event
-/// is stored once and in order.
+/// Has four clients write to a day of two services while something happens to the database. Each
+/// client sends its next event once the last one is stored. Checks that every acknowledged event is
+/// stored once and in order.
 fn check_writes(services: &[Running; 2], during: impl FnOnce(&str)) {
     let path = services[0].new_day("greedy");
     let stop = AtomicBool::new(false);

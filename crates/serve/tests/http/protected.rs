@@ -1,4 +1,4 @@
-//! What keeps others out, and what keeps anybody from taking all there is.
+//! Access control, and limits that stop one client from taking all resources.
 
 use std::io::{Read as _, Write as _};
 use std::net::{Ipv4Addr, TcpStream};
@@ -56,7 +56,7 @@ fn it_speaks_tls_with_a_certificate_of_ones_own() {
     let report = operate(&operation, &Stop::default(), |_, _| ());
     let report = report.expect("the service answers").expect("it was not stopped");
     assert!(report.totals.profit_usd > 0.0);
-    // Speaking without TLS leads nowhere, and does no harm.
+    // Requests without TLS fail, and do no harm.
     let mut plain = TcpStream::connect((Ipv4Addr::LOCALHOST, port)).expect("it listens");
     plain.write_all(b"GET /healthz HTTP/1.1\r\n\r\n").expect("it is sent");
     let mut said = Vec::new();
@@ -93,7 +93,7 @@ fn connections_that_say_nothing_are_closed() {
     assert_eq!(service.get("/healthz").status, 200);
 }
 
-/// The first bytes of the answer to bytes.
+/// The first bytes of the answer to some bytes.
 fn answered(service: &Running, bytes: &[u8]) -> String {
     let mut socket = connect(service);
     socket.write_all(bytes).expect("it is sent");
@@ -120,7 +120,7 @@ fn heads_are_short_and_mean_one_thing() {
     ] {
         assert_eq!(answered(&service, wrong.as_bytes()), "HTTP/1.1 400", "{wrong:?}");
     }
-    // A head that follows a body is read just as strictly.
+    // A head that follows a body is parsed just as strictly.
     let body = r#"{"network": "paper", "policy": "greedy"}"#;
     let post = format!(
         "POST /v1/days HTTP/1.1\r\nhost: localhost\r\ncontent-length: {}\r\n\r\n{body}",

@@ -23,12 +23,12 @@ impl Running {
         Self::start_at(Location::Folder(folder.to_owned()))
     }
 
-    /// Starts a service with its data somewhere.
+    /// Starts a service with its data at a location.
     pub(crate) fn start_at(location: Location) -> Self {
         Self::start_with(location, Limits::default())
     }
 
-    /// Starts a service with its data somewhere and with given limits.
+    /// Starts a service with its data at a location and with the given limits.
     pub(crate) fn start_with(location: Location, limits: Limits) -> Self {
         Self::start_as(Settings { limits, ..settings_for(location) })
     }
@@ -48,7 +48,7 @@ impl Running {
     }
 }
 
-/// Settings of a service for tests, with its data somewhere.
+/// Settings of a service for tests, with its data at a location.
 pub(crate) fn settings_for(location: Location) -> Settings {
     Settings {
         listen: SocketAddr::from((Ipv4Addr::LOCALHOST, 0)),
@@ -79,12 +79,12 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// Its status and the code of what is wrong; no code if nothing is.
+    /// Its status and the code of the error, if there is one.
     pub(crate) fn problem(&self) -> (u16, &str) {
         (self.status, self.json["code"].as_str().unwrap_or_default())
     }
 
-    /// The path of what was made.
+    /// The path of the created object.
     pub(crate) fn made(&self, list: &str) -> String {
         assert_eq!(self.status, 201, "{self:?}");
         format!("{list}/{}", self.json["id"].as_str().expect("an id"))
@@ -92,7 +92,7 @@ impl Answer {
 }
 
 impl Running {
-    /// Sends a request with some headers, and a body if it is to be posted.
+    /// Sends a request with some headers, and posts a body if there is one.
     pub(crate) fn send(
         &self,
         method: &str,
@@ -140,12 +140,12 @@ impl Running {
         self.post(&format!("{day}/events"), event)
     }
 
-    /// Has a decision taken on a day.
+    /// Posts a decision on a day.
     pub(crate) fn decide(&self, day: &str, asked: &Value) -> Answer {
         self.post(&format!("{day}/decisions"), asked)
     }
 
-    /// What is known of a day.
+    /// The state of a day.
     pub(crate) fn state(&self, day: &str) -> Value {
         self.get(&format!("{day}/state")).json
     }
@@ -158,8 +158,8 @@ pub(crate) fn folder() -> (TempDir, Location) {
     (folder, location)
 }
 
-/// A way to make tokens for the service of a folder: each by its name and role, as the value of the
-/// header that brings it.
+/// A factory of tokens for the service of a folder: it returns the header value of a token with a
+/// name and a role.
 pub(crate) fn bearers(location: &Location) -> impl Fn(&str, Role) -> String + use<> {
     let tokens = Tokens::open(location).expect("a store");
     move |name, role| format!("Bearer {}", tokens.make(name, role).expect("a token"))

@@ -1,4 +1,4 @@
-//! Studies: many days in the background, with the numbers that `vertifleet compare` has.
+//! Studies: many days in the background, with the numbers of `vertifleet compare`.
 
 use std::time::{Duration, Instant};
 
@@ -20,8 +20,8 @@ fn made(service: &Running, body: &Value) -> String {
     service.post("/v1/studies", body).made("/v1/studies")
 }
 
-/// Sees that the policy which comes with a page lets its own style sheet and script in, and nothing
-/// that is not named.
+/// Checks that the content security policy of a page admits its own style sheet and script, and
+/// nothing that is not named.
 fn assert_runs_under_its_policy(service: &Running, page: &str) {
     let mut answer = ureq::get(format!("{}{page}", service.url)).call().expect("the page");
     let policy = answer.headers()["content-security-policy"].to_str().expect("text").to_owned();
@@ -43,7 +43,7 @@ fn until(service: &Running, study: &str, state: &str) -> Value {
     when(service, study, |found| found["state"] == state)
 }
 
-/// Waits for something to be true of a study.
+/// Waits until a condition holds for a study.
 fn when(service: &Running, study: &str, is_so: impl Fn(&Value) -> bool) -> Value {
     let begun = Instant::now();
     loop {
@@ -147,7 +147,7 @@ fn studies_wait_for_each_other_and_can_be_ended() {
     let first = made(&service, &long);
     let playing = until(&service, &first, "playing");
     assert!(playing["progress"]["share"].is_number(), "{playing}");
-    // What came out for the first policy is there while the second one plays.
+    // The result of the first policy is there while the second one plays.
     let playing = when(&service, &first, |found| found["progress"]["doing"] == "rolling");
     let played = &playing["progress"]["played"][0];
     assert_eq!(played["name"], "greedy");
@@ -158,7 +158,7 @@ fn studies_wait_for_each_other_and_can_be_ended() {
     let short = json!({"network": "paper", "policies": ["greedy"], "days": 1});
     let second = made(&service, &short);
     assert_eq!(service.get(&second).json["state"], "waiting");
-    // Decisions are taken meanwhile.
+    // Decisions are taken in the meantime.
     let day = service.new_day("greedy");
     assert_eq!(service.decide(&day, &json!({"aircraft": "A01"})).status, 201);
     assert_eq!(service.get(&first).json["state"], "playing", "the decision did not wait for it");

@@ -1,22 +1,22 @@
-//! Where a reader is in the log of a day, and what it is sent next.
+//! The position of a reader in the log of a day, and the events to send next.
 
 use crate::mark::EventMark;
 use crate::store::Page;
 use crate::taken_event::TakenEvent;
 
 /// The position of a reader that reads the log from the store until it has caught up, and then
-/// takes events as they are published. It subscribes before it reads, so it is published what it
-/// does not find in the store.
+/// receives events as they are published. It subscribes before it reads, so every event that is not
+/// in the store yet will be published to it.
 #[derive(Debug)]
 pub(super) struct Position {
-    /// The last event that was sent, or the one that the reader came with.
+    /// The last event that was sent, or the one in the request.
     after: EventMark,
-    /// Whether the store may have events that the reader will not be published.
+    /// Whether the store may have events that will not be published to the reader.
     is_behind: bool,
 }
 
 impl Position {
-    /// After an event, whatever has been published since.
+    /// After an event, regardless of later ones.
     pub(super) fn after(mark: EventMark) -> Self {
         Self { after: mark, is_behind: true }
     }
@@ -31,19 +31,19 @@ impl Position {
         self.is_behind
     }
 
-    /// Events were published that the reader did not get.
+    /// Records that events were published that the reader did not receive.
     pub(super) fn has_missed_events(&mut self) {
         self.is_behind = true;
     }
 
-    /// A page of the store follows on the position; all its events are sent.
+    /// Adds a page of the store that follows the position; all its events are sent.
     pub(super) fn read(&mut self, page: &Page) {
         self.is_behind = !page.is_last;
         self.after = page.events.last().map_or(self.after, TakenEvent::mark);
     }
 
-    /// An event was published. Returns whether it is sent: it may have been read from the store
-    /// before, or follow on some that have to be read first.
+    /// Adds an event that was published. Returns whether to send it: it may have been read from the
+    /// store already, or follow events that must be read first.
     pub(super) fn take(&mut self, event: &TakenEvent) -> bool {
         let is_next = event.seq == self.after.seq + 1;
         if is_next {
@@ -84,8 +84,8 @@ mod tests {
             Self { fresh: publisher.subscribe(), position, sent: Vec::new() }
         }
 
-        /// Reads one event from the store or takes one that was published. Returns false if it has
-        /// to wait.
+        /// Reads one event from the store or takes one that was published. Returns false if there
+        /// is none.
         fn step(&mut self, store: &[TakenEvent]) -> bool {
             if self.position.is_behind() {
                 let mut left = store.iter().filter(|one| one.seq > self.position.mark().seq);
@@ -108,9 +108,9 @@ mod tests {
         }
     }
 
-    /// Three events are stored, each before it is published, and two may be published in either
-    /// order, because a service publishes its own events and those that others have stored. Only
-    /// `kept` of them are kept for a reader.
+    /// Three events are stored, each before it is published. Two may be published in either order,
+    /// because a service publishes its own events and those that others have stored. Only `kept` of
+    /// them are kept for a reader.
     fn play(kept: usize, choices: &mut Choices) {
         let (publisher, _) = tokio::sync::broadcast::channel(kept);
         let (mut store, mut unpublished) = (Vec::new(), Vec::new());
