@@ -1,4 +1,4 @@
-//! `Batch`: many days side by side, advanced by several threads. The vector environment is built on
+//! `Batch`: many days in parallel, advanced by several threads. The vector environment is built on
 //! it.
 //!
 //! The observations of steps alternate between two sets of arrays, so that the observations of one
@@ -27,10 +27,10 @@ use crate::whole_number::WholeNumber;
 /// more than the cost of handing it to a thread.
 const GRAIN: usize = 16;
 
-/// How the day that follows a finished day begins.
+/// The beginning of the day that follows a finished day.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Autoreset {
-    /// The next step begins a new day, whatever the action is.
+    /// The next step begins a new day and ignores the action.
     NextStep,
     /// The step that ends a day also begins a new one. The last observation of the old day goes to
     /// separate arrays.
@@ -45,11 +45,11 @@ struct Slot {
     day: Option<Day>,
     /// The totals of the day, if the latest step ended it.
     summary: Option<DayTotals>,
-    /// What came of the latest step's choice; `None` if the step began a day instead.
+    /// The outcome of the latest step's choice; `None` if the step began a day instead.
     outcome: Option<Outcome>,
 }
 
-/// Many days side by side.
+/// Many days in parallel.
 #[pyclass(module = "vertifleet")]
 pub(crate) struct Batch {
     world: World,
@@ -123,7 +123,7 @@ impl Batch {
 
     /// Begins a day at each slot for which `which` is true: the day with the slot's number in
     /// `numbers`, or its scenario if these are given. Writes the observations of all slots, and
-    /// returns the index of the set that they are in.
+    /// returns the index of their set.
     fn reset(
         &mut self,
         py: Python<'_>,
@@ -164,8 +164,8 @@ impl Batch {
     }
 
     /// Takes one decision at every slot. Where a new day is due, the day with the slot's number in
-    /// `numbers` begins. Returns the index of the set that the observations are in, and whether any
-    /// day is over or has begun.
+    /// `numbers` begins. Returns the index of the set of the observations, and whether any day is
+    /// over or has begun.
     fn step(
         &mut self,
         py: Python<'_>,
@@ -201,12 +201,12 @@ impl Batch {
         self.slots.get(slot)?.day.as_ref().map(Day::scenario)
     }
 
-    /// What may be seen of the current decision of a slot.
+    /// The view of the current decision of a slot.
     fn view(&self, slot: usize) -> Option<View> {
         self.slots.get(slot)?.day.as_ref().map(Day::view)
     }
 
-    /// What came of the latest step's choice at a slot; `None` if the step began a day there
+    /// The outcome of the latest step's choice at a slot; `None` if the step began a day there
     /// instead.
     fn outcome(&self, slot: usize) -> Option<OutcomeFields> {
         self.slots.get(slot)?.outcome.as_ref().map(OutcomeFields::from)
@@ -354,8 +354,8 @@ impl<'a> Shares<'a> {
         Self(shares)
     }
 
-    /// Calls `each` for every slot of the thread's own share, and then for the slots of other
-    /// shares that no thread has taken yet.
+    /// Calls `each` for every slot of the thread's share, and then for the slots of other shares
+    /// that no thread has taken yet.
     fn each(&self, thread: usize, each: &(impl Fn(&mut Slot, Row<'_, '_>, usize) + Sync)) {
         let others = (thread..self.0.len()).chain(0..thread);
         for share in others.map(|share| &self.0[share]) {

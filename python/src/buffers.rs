@@ -7,7 +7,7 @@ use numpy::{
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-/// Arrays with one observation for each day of a batch, laid out as its layout says, and their
+/// Arrays with one observation for each day of a batch, in the order of its layout, and their
 /// masks.
 pub(crate) struct Observations {
     rows: Py<PyArray2<f32>>,

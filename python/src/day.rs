@@ -15,7 +15,7 @@ use crate::observation::{scene, show};
 use crate::scenario::Scenario;
 use crate::view::View;
 
-/// What all days of an environment share.
+/// The common properties of all days of an environment.
 #[derive(Clone)]
 pub(crate) struct World {
     pub(crate) days: Days,
@@ -27,10 +27,10 @@ pub(crate) struct World {
 pub(crate) struct Day {
     simulation: Simulation,
     observer: Observer,
-    /// What the views of the day share.
+    /// The state that the views of the day share.
     views: Arc<Mutex<Observer>>,
-    /// The decision to be taken. When the day is over, it is the last decision that was taken, seen
-    /// from where its aircraft is now.
+    /// The pending decision. When the day is over, it is the last decision, in the view of its
+    /// aircraft's current place.
     decision: Decision,
     over: bool,
 }
@@ -42,11 +42,11 @@ pub(crate) struct Outcome {
     pub(crate) over: bool,
     /// Whether the action was infeasible, so that the aircraft held.
     pub(crate) invalid: bool,
-    /// What came of the choice that was applied.
+    /// The outcome of the choice that was applied.
     pub(crate) row: TraceRow,
 }
 
-/// What came of a choice, as a dict for functions of the caller that pay rewards.
+/// The outcome of a choice, as a dict for the caller's reward functions.
 #[derive(IntoPyObject)]
 pub(crate) struct OutcomeFields {
     time_s: u32,
@@ -114,7 +114,7 @@ impl World {
         &self.layout.layout
     }
 
-    /// The most vertiports of a day.
+    /// Largest number of vertiports of a day.
     pub(crate) fn vertiports(&self) -> usize {
         self.layout().sizes().vertiports
     }
@@ -212,12 +212,13 @@ impl Day {
         Outcome { reward, over: self.over, invalid: asked.is_none(), row }
     }
 
-    /// The current decision with what may be seen of the day.
+    /// The current decision with the view of the day.
     pub(crate) fn view(&self) -> View {
         View::of(&self.scene(), &self.views)
     }
 
-    /// The current decision as it is seen: when the day is over, by the aircraft that decided last.
+    /// The scene of the current decision: when the day is over, that of the aircraft that decided
+    /// last.
     pub(crate) fn scene(&self) -> Scene<'_> {
         scene(self.simulation.view(), self.over, &self.decision)
     }
@@ -228,7 +229,8 @@ impl Day {
         show(layout, &scene(simulation.view(), *over, decision), observer, row, mask);
     }
 
-    /// Does the same for an aircraft as if it decided now, from where it stands or will land.
+    /// Does the same for an aircraft as if it decided now, from the vertiport where it stands or
+    /// will land.
     pub(crate) fn show_to(
         &mut self,
         aircraft: AircraftIx,
@@ -250,7 +252,7 @@ impl Day {
 }
 
 impl Clone for Day {
-    /// The copy continues independently, so it remembers its own prices.
+    /// The copy plays on independently, so it has its own cache of prices.
     fn clone(&self) -> Self {
         let views = self.views.lock().unwrap_or_else(PoisonError::into_inner).clone();
         Self {

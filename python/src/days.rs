@@ -1,4 +1,4 @@
-//! `Days`: where the days of an environment come from.
+//! `Days`: the source of an environment's days.
 
 use std::sync::Arc;
 
@@ -11,11 +11,10 @@ use crate::layout::SizesTuple;
 use crate::network::Network;
 use crate::pickle::Reduced;
 
-/// The most vertiports, aircraft, types and periods of a random network.
+/// Largest numbers of vertiports, aircraft, types and periods of a random network.
 const RANDOM: Sizes = Sizes { vertiports: 30, aircraft: 150, types: 1, periods: 15 };
 
-/// Where days come from: given networks, or networks drawn for each day.
-/// Every number names a day.
+/// The source of days: given networks, or a new network for each day. Every number names a day.
 #[pyclass(frozen, module = "vertifleet._native")]
 #[derive(Clone)]
 pub(crate) struct Days {
@@ -36,7 +35,7 @@ enum Source {
 #[pymethods]
 impl Days {
     /// Days of some networks in turn, of "random", or of "random-places:N". `split` is "training",
-    /// "validation" or "comparison"; the days of one are never days of another.
+    /// "validation" or "comparison"; the days of different splits are disjoint.
     #[new]
     fn new(source: SourceArgument, split: &str) -> Result<Self, Failure> {
         let purpose = purpose_of(split)?;
@@ -50,13 +49,13 @@ impl Days {
         Ok(Self { source, purpose })
     }
 
-    /// Whether a name stands for networks drawn for each day.
+    /// Whether a name stands for a source that draws a new network for each day.
     #[staticmethod]
     fn are_drawn(name: &str) -> bool {
         name == "random" || name.starts_with(RANDOM_PLACES)
     }
 
-    /// The most vertiports, aircraft, types and periods of a day.
+    /// Largest numbers of vertiports, aircraft, types and periods of a day.
     #[getter]
     fn sizes(&self) -> SizesTuple {
         let Sizes { vertiports, aircraft, types, periods } = self.most();
@@ -105,7 +104,7 @@ pub(crate) fn purpose_of(split: &str) -> Result<Purpose, Failure> {
 
 const RANDOM_PLACES: &str = "random-places:";
 
-/// Networks, or the name of those that are drawn.
+/// Networks, or the name of a source of random ones.
 #[derive(FromPyObject)]
 enum SourceArgument {
     Drawn(String),
@@ -150,7 +149,7 @@ impl Days {
         Ok(())
     }
 
-    /// The day with this number, and what observes the days of its network.
+    /// The day with this number, and an observer of its network's days.
     pub(crate) fn day(&self, number: u64) -> Result<(Arc<core::Scenario>, Observer), core::Error> {
         let seed = DaySeed::of_purpose(self.purpose, number)?;
         let drawn;
@@ -171,7 +170,7 @@ impl Days {
         Ok((Arc::new(network.draw(seed)), Observer::of(network)))
     }
 
-    /// What observes days that did not come from here: the observer of the first network.
+    /// The observer of days from elsewhere: that of the first network.
     pub(crate) fn observer(&self) -> Observer {
         match &self.source {
             Source::Networks(networks) => Observer::of(&networks[0].network),

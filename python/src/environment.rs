@@ -29,7 +29,7 @@ pub(crate) struct Environment {
     number: Option<u64>,
     /// The choices of the current day so far.
     choices: Vec<u16>,
-    /// What came of the latest choice.
+    /// The outcome of the latest choice.
     outcome: Option<Outcome>,
 }
 
@@ -151,13 +151,13 @@ impl Environment {
         self.day.as_ref().map(|day| picture::text(day, &self.choices))
     }
 
-    /// What may be seen of the current decision.
+    /// The view of the current decision.
     #[getter]
     fn view(&self) -> Option<View> {
         self.day.as_ref().map(Day::view)
     }
 
-    /// What came of the latest choice.
+    /// The outcome of the latest choice.
     #[getter]
     fn outcome(&self) -> Option<OutcomeFields> {
         self.outcome.as_ref().map(OutcomeFields::from)

@@ -72,7 +72,7 @@ impl<'py> Columns<'py> {
     }
 }
 
-/// A whole number in the type that the arrays of this library use.
+/// A whole number in the type of this library's arrays.
 pub(crate) fn count(value: impl TryInto<i64>) -> i64 {
     value.try_into().unwrap_or(i64::MAX)
 }
@@ -84,8 +84,8 @@ pub(crate) fn read_only<T>(array: Bound<'_, T>) -> PyResult<Bound<'_, PyAny>> {
     Ok(array)
 }
 
-/// The columns as a `library.DataFrame`. If the library is not installed, Python's own
-/// `ModuleNotFoundError` says what to install.
+/// The columns as a `library.DataFrame`. If the library is not installed, Python's
+/// `ModuleNotFoundError` names it.
 pub(crate) fn frame<'py>(
     columns: &Bound<'py, PyDict>,
     library: &str,
@@ -102,12 +102,12 @@ pub(crate) fn table<T: Element>(
     Ok(PyArray1::from_iter(py, entries).reshape(shape)?.into_any())
 }
 
-/// Plain data as Python's own dicts, lists and numbers.
+/// Plain data as Python's dicts, lists and numbers.
 pub(crate) fn plain<'py>(py: Python<'py>, value: &impl Serialize) -> PyResult<Bound<'py, PyAny>> {
     loads(py, &serde_json::to_string(value).expect("it is plain data"))
 }
 
-/// JSON as Python's own dicts, lists and numbers.
+/// JSON as Python's dicts, lists and numbers.
 pub(crate) fn loads<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
     py.import("json")?.call_method1("loads", (json,))
 }

@@ -1,4 +1,4 @@
-//! Long calls, during which Python's other threads can run and Ctrl-C is noticed at once.
+//! Long calls, during which Python's other threads can run and Ctrl-C takes effect at once.
 
 use std::ops::RangeInclusive;
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -13,7 +13,7 @@ use crate::whole_number::WholeNumber;
 
 /// The time between two checks for Ctrl-C.
 const POLL_INTERVAL: Duration = Duration::from_millis(50);
-/// The numbers of threads that may be requested.
+/// The permitted numbers of threads.
 const THREADS: RangeInclusive<usize> = 1..=1024;
 
 /// The requested number of threads, or the number of cores if no number is requested.
@@ -41,9 +41,9 @@ pub(crate) fn pool(threads: usize) -> ThreadPool {
 /// may call a Python function of the caller, which must not happen after Python has shut down. A
 /// second Ctrl-C returns without waiting.
 ///
-/// The threads are started for each call and end with it. If they were kept, a process that is
-/// forked later, for example by Python's `multiprocessing`, would not have them, and would wait for
-/// them for ever.
+/// The threads are started for each call and end with it. Threads that outlive a call would not
+/// exist in a process that is forked later, for example by Python's `multiprocessing`, which would
+/// then wait for them for ever.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     threads: usize,

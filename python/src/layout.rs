@@ -9,7 +9,7 @@ use crate::failure::Failure;
 /// Numbers of vertiports, aircraft, types of aircraft and demand periods.
 pub(crate) type SizesTuple = (usize, usize, usize, usize);
 
-/// The parts of an observation, side by side in one row of numbers.
+/// The parts of an observation in one row of numbers.
 #[pyclass(frozen, module = "vertifleet._native")]
 #[derive(Clone)]
 pub(crate) struct Layout {
@@ -57,8 +57,7 @@ impl Layout {
         self.layout.width()
     }
 
-    /// Whether all parts show the present alone, and nothing that is known or expected of the
-    /// future.
+    /// Whether all parts describe the present alone, without forecasts or announcements.
     #[getter]
     fn shows_present_only(&self) -> bool {
         !self.layout.parts().iter().any(|placed| placed.part.is_ahead())

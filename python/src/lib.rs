@@ -4,6 +4,7 @@
 //! Calls that may take long release the GIL for Python's other threads, and check for Ctrl-C
 //! (`interruptible.rs`). Arrays are filled in place. The docstrings come from the comments here,
 //! and the types from `vertifleet/_native.pyi`.
+//! and the types from `vertifleet/_native.pyi`.
 
 #![expect(
     clippy::needless_pass_by_value,

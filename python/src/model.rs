@@ -24,7 +24,7 @@ pub(crate) struct Model {
 
 #[pymethods]
 impl Model {
-    /// Reads a weight file, which is a safetensors file, of any learned policy.
+    /// Reads a weight file of any learned policy, which is a safetensors file.
     #[staticmethod]
     fn read(path: PathBuf) -> Result<Self, Failure> {
         Ok(Self { model: Arc::new(vertifleet_learn::Model::read(&path)?) })
@@ -71,8 +71,8 @@ impl Model {
         self.model.kind()
     }
 
-    /// The header of the weight file, as a dict. It says what the weights were trained for and
-    /// where they came from.
+    /// The header of the weight file, as a dict. It contains the task and the origin of the
+    /// weights.
     #[getter]
     fn header<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         plain(py, self.model.header())
@@ -223,7 +223,7 @@ pub(crate) fn settings<'py>(
     plain(py, &settings)
 }
 
-/// The changes of settings that a mapping asks for, as `vertifleet train --set` takes them.
+/// The changes of settings in a mapping, in the form of `vertifleet train --set`.
 pub(crate) fn changes(mapping: &Bound<'_, PyMapping>) -> PyResult<Vec<(String, String)>> {
     let members = members("settings", mapping)?;
     Ok(members.into_iter().map(|(name, value)| (name, whole(value).to_string())).collect())

@@ -5,10 +5,10 @@ use pyo3::prelude::*;
 use vertifleet_observe::{Layout, Observer, Scene};
 use vertifleet_sim::{Decision, View};
 
-/// The numbers of an observation, laid out as its layout says, and its mask.
+/// The numbers of an observation, in the order of its layout, and its mask.
 pub(crate) type Shown<'py> = (Bound<'py, PyArray1<f32>>, Bound<'py, PyArray1<i8>>);
 
-/// A decision that is to be taken, or, if the day is over, the one that was taken last.
+/// A pending decision, or, if the day is over, the last one.
 pub(crate) fn scene<'a>(view: View<'a>, over: bool, decision: &'a Decision) -> Scene<'a> {
     if over { Scene::over(view, decision) } else { Scene::of(view, decision) }
 }

@@ -1,4 +1,4 @@
-//! `bound` and `plan`: an upper bound on what a known day can earn, and a schedule that comes close
+//! `bound` and `plan`: an upper bound on the profit of a known day, and a schedule that comes close
 //! to it.
 
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use crate::scenario::Scenario;
 use crate::trace::Trace;
 use crate::whole_number::WholeNumber;
 
-/// A proven upper bound on what any schedule of a day earns.
+/// A proven upper bound on the profit of every schedule of a day.
 #[pyclass(frozen, module = "vertifleet")]
 #[derive(Clone)]
 pub(crate) struct Bound {
@@ -47,15 +47,15 @@ impl Bound {
         self.upper_bound_usd
     }
 
-    /// Whether the search for the bound came to its end. If not, a longer search may find a lower
+    /// Whether the search for the bound is complete. If not, a longer search may find a lower
     /// bound.
     #[getter]
     fn is_final(&self) -> bool {
         self.is_final
     }
 
-    /// Minutes for which the prices of the bound stay the same. This may be more than requested, if
-    /// longer slices prove a lower bound.
+    /// Longest interval, in minutes, for which the prices of the bound stay the same. This may be
+    /// more than requested, if longer slices prove a lower bound.
     #[getter]
     fn step(&self) -> u32 {
         self.step
@@ -79,7 +79,7 @@ impl Bound {
         table(py, self.passenger_shadow_price_usd.iter().copied(), [periods, size, size])
     }
 
-    /// The gap: by how much a profit is below the bound, as a share of the bound. Both are taken
+    /// The gap: the distance of a profit below the bound, as a share of the bound. Both are taken
     /// before the costs of aircraft and sites, which no decision changes.
     fn gap(&self, profit_usd: f64) -> f64 {
         let fixed_usd = self.scenario.fixed_cost_usd();
@@ -160,8 +160,8 @@ impl Bound {
     }
 }
 
-/// Proves an upper bound on what any schedule of a day earns. `step` is the length of the bound's
-/// slices in minutes, 1 to 60. Shorter slices never give a looser bound, but take longer.
+/// Proves an upper bound on the profit of every schedule of a day. `step` is the length of the
+/// bound's slices in minutes, 1 to 60. Shorter slices never give a looser bound, but take longer.
 #[pyfunction]
 #[pyo3(signature = (scenario, *, step = WholeNumber::from(5)), text_signature = "(scenario, *, step=5)")]
 pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: WholeNumber) -> PyResult<Bound> {
@@ -194,7 +194,7 @@ impl Plan {
         self.trace.clone()
     }
 
-    /// Profit of the day, as the simulator accounts for it, dollars.
+    /// Profit of the day, as the simulator computes it, dollars.
     #[getter]
     fn profit_usd(&self) -> f64 {
         self.profit_usd
@@ -225,8 +225,8 @@ impl Plan {
         self.bound.clone()
     }
 
-    /// By how much the plan's profit is below the bound, as a share of the bound. The best schedule
-    /// is at most this much better.
+    /// The distance of the plan's profit below the bound, as a share of the bound. The best
+    /// schedule is at most this much better.
     #[getter]
     fn gap(&self) -> Option<f64> {
         self.bound.as_ref().map(|bound| bound.gap(self.profit_usd))

@@ -12,12 +12,12 @@ use vertifleet_sim::{DayKey, Decision, View};
 use crate::policy_source::OwnCalls;
 use crate::whole_number::WholeNumber;
 
-/// What it takes to call the Python object.
+/// The data for calls of the Python object.
 #[derive(Clone)]
 pub(crate) struct Caller {
     /// Makes the function that chooses.
     pub(crate) make: Arc<Py<PyAny>>,
-    /// What observes a new day.
+    /// Creates the observer of a new day.
     pub(crate) observer: Observer,
     /// The name of the policy in warnings.
     pub(crate) name: String,
@@ -35,8 +35,7 @@ impl Caller {
         PolicyError::Stopped
     }
 
-    /// The choice that an action stands for. As in an environment, an action that is not feasible
-    /// holds.
+    /// The choice that an action means. As in an environment, an infeasible action holds.
     fn feasible(&self, decision: &Decision, view: View<'_>, action: WholeNumber) -> VertiportIx {
         let feasible = view.feasible(decision);
         let asked = action.of::<u16>("what a policy returns").ok().map(VertiportIx);
@@ -47,7 +46,7 @@ impl Caller {
     }
 }
 
-/// A policy that calls a function from a view to an action, which is made again when a day begins.
+/// A policy that calls a function from a view to an action, which is created for each day.
 pub(crate) struct OwnPolicy {
     caller: Caller,
     /// The day that is being played.
@@ -95,11 +94,11 @@ impl Policy for OwnPolicy {
     }
 }
 
-/// A policy that asks a function from many views to as many actions.
+/// A policy that calls a function from many views to as many actions.
 pub(crate) struct OwnBatchPolicy {
     caller: Caller,
     choose: Option<Py<PyAny>>,
-    /// What observes each day that is being played, and some that are over.
+    /// The observers of the days in play, and of some that are over.
     observers: Vec<(DayKey, Arc<Mutex<Observer>>)>,
 }
 
@@ -138,7 +137,7 @@ impl OwnBatchPolicy {
         }
     }
 
-    /// What observes a day; it is made again when a day begins.
+    /// The observer of a day, which is created when the day begins.
     fn observer(&mut self, day: DayKey, begins: bool) -> Arc<Mutex<Observer>> {
         if begins {
             self.observers.retain(|(known, _)| *known != day);

@@ -60,8 +60,7 @@ impl Picture {
     }
 }
 
-/// A day in progress, as it was brought here by these choices, as a frame: [height, width, 3], 0 to
-/// 255.
+/// A day in progress after these choices, as a frame: [height, width, 3], 0 to 255.
 pub(crate) fn frame<'py>(
     py: Python<'py>,
     day: &Day,
@@ -85,8 +84,8 @@ fn deciding(day: &Day) -> Option<VertiportIx> {
     (!day.is_over()).then(|| day.decision().at)
 }
 
-/// The fleet as the choices have brought it here. Playing them again takes less time than painting,
-/// and an environment that is never rendered keeps no trace.
+/// The fleet after these choices. Playing them again takes less time than painting, and an
+/// environment that is never rendered keeps no trace.
 fn moment(day: &Day, choices: &[u16]) -> Moment {
     let mut simulation = Simulation::new(Arc::clone(day.simulation().scenario()));
     let mut rows: Vec<TraceRow> = Vec::with_capacity(choices.len());

@@ -75,7 +75,7 @@ impl Played {
     }
 }
 
-/// The name of a policy of the caller, for messages.
+/// The name of a policy of the caller in messages.
 const OWN: &str = "function";
 
 /// The policy that plays the day.
@@ -90,8 +90,8 @@ pub(crate) enum Player<'py> {
 /// Plays a day to its end with a policy. The policy is one of the following: a name as in
 /// `vertifleet simulate`, with `seed` for the random policy and `model` for a weight file or a
 /// `Model` to use instead of the shipped weights; a `Model`; a `Trace` of this day, which is
-/// replayed; or a function as for `compare`, which sees the day as the environment of `network`
-/// shows it.
+/// replayed; or a function as for `compare`, which observes the day as in the environment of
+/// `network`.
 #[pyfunction]
 #[pyo3(
     signature = (scenario, policy = Player::Named("greedy".to_owned()), *, seed = WholeNumber::from(0), model = None, network = None),

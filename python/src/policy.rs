@@ -1,4 +1,4 @@
-//! `Policy`: one of the program's policies, to be asked about any decision.
+//! `Policy`: one of the program's policies, which can be called for any decision.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -12,16 +12,16 @@ use crate::policy_source::Weights;
 use crate::view::View;
 use crate::whole_number::WholeNumber;
 
-/// One of the program's policies, to be asked about any decision:
+/// One of the program's policies, which can be called for any decision:
 /// `vertifleet.policy("rolling").values(env.view)`.
 ///
-/// Asked about the decisions of a day in their order, it remembers the day's bid prices as it does
-/// when it plays, so it makes the choices that `vertifleet simulate` makes.
+/// Called for the decisions of a day in order, it keeps the day's bid prices as in play, so it
+/// makes the choices of `vertifleet simulate`.
 #[pyclass(frozen, module = "vertifleet")]
 pub(crate) struct Policy {
     name: String,
     resolved: ResolvedPolicy,
-    /// It may remember the day that it was asked about last.
+    /// It may contain state of the last day.
     built: Mutex<Box<dyn policy::Policy>>,
 }
 
@@ -33,7 +33,7 @@ impl Policy {
         &self.name
     }
 
-    /// What it sees: "present", "forecast" or "whole day".
+    /// The information that it uses: "present", "forecast" or "whole day".
     #[getter]
     fn sees(&self) -> String {
         self.resolved.sees().to_string()
@@ -49,8 +49,8 @@ impl Policy {
         Ok(outcome.map_err(|error| self.stuck(&error))?.0)
     }
 
-    /// What it compares choices by, the higher the better; NaN for a choice that it does not
-    /// consider [N].
+    /// The values by which it compares choices, the higher the better; NaN for a choice that it
+    /// does not consider [N].
     fn values<'py>(&self, py: Python<'py>, view: &View) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let array = PyArray1::zeros(py, view.scene().sizes().vertiports, false);
         let mut guard = array.readwrite();
@@ -77,7 +77,7 @@ impl Policy {
 }
 
 /// Finds a policy by its name, as `simulate` does. `network` is the name of the network whose
-/// shipped weights are meant, `seed` that of the random policy, and `model` a weight file or a
+/// shipped weights are used, `seed` that of the random policy, and `model` a weight file or a
 /// `Model`.
 #[pyfunction]
 #[pyo3(signature = (name, network, seed, model))]

@@ -1,5 +1,5 @@
-//! `record`: plays days with a policy, and keeps every decision with its observation, for learning
-//! from it.
+//! `record`: plays days with a policy, and records every decision with its observation, for
+//! learning.
 
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
@@ -32,8 +32,8 @@ struct Recorded {
 
 /// Plays the days with these numbers, and returns a dict: `days` (names), `decisions` (number of
 /// each day), `rows` [D, W], `mask` [D, N], `action` [D], `reward` [D] (each flight's share of the
-/// day's reward), and `values` [D, N] if they are asked for. `policy` is a name, or with `source`
-/// the name of a model or of a policy of the caller, which sees the days as days of `network`.
+/// day's reward), and `values` [D, N] if they are requested. `policy` is a name, or with `source`
+/// the name of a model or of a policy of the caller, which observes the days as days of `network`.
 #[pyfunction]
 #[pyo3(signature = (days, layout, policy, source, network, *, first, number, values, seed, threads))]
 #[expect(clippy::too_many_arguments, reason = "the Python side gives them names and defaults")]
@@ -67,7 +67,7 @@ pub(crate) fn record<'py>(
     let (width, vertiports) = (layout.layout.width(), world.vertiports());
     let name = policy.to_owned();
     let outcome = interruptible(py, interruptible::threads(threads)?, move |stop| {
-        // Each day has a separate policy, so that nothing is remembered from one day to the next.
+        // Each day has a separate policy, so that no state passes from day to day.
         let play = |number| {
             let mut policy = resolved.build();
             recorded(&world, (&name, &resolved), policy.as_mut(), number, values, stop)

@@ -50,7 +50,7 @@ impl Scenario {
         self.scenario.to_json()
     }
 
-    /// The day as a picture: its vertiports, and who wants to fly where and when.
+    /// The day as a picture: its vertiports, and its demand by pair and by time.
     fn plot(&self, py: Python<'_>) -> Picture {
         Picture { text: py.detach(|| vertifleet_picture::day(&self.scenario)) }
     }
@@ -91,7 +91,7 @@ impl Scenario {
         self.scenario.aircraft.iter().map(|aircraft| aircraft.id.as_str()).collect()
     }
 
-    /// Where each aircraft stands when operations start, as positions of vertiports [aircraft].
+    /// The initial place of each aircraft, as positions of vertiports [aircraft].
     #[getter]
     fn start_positions<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let places = self.scenario.aircraft.iter().map(|aircraft| count(aircraft.at.0));
@@ -128,7 +128,7 @@ impl Scenario {
     }
 
     /// Demand, passengers [periods, vertiports, vertiports]. Where it differs from the forecast, no
-    /// policy sees it.
+    /// policy observes it.
     #[getter]
     fn demand<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let (periods, size) = self.shape();
@@ -145,7 +145,7 @@ impl Scenario {
         read_only(table(py, fares.copied(), [periods, size, size])?)
     }
 
-    /// Passenger cost, which is what carrying a passenger costs, dollars per passenger [vertiports,
+    /// Passenger cost: the cost of carrying a passenger, dollars per passenger [vertiports,
     /// vertiports].
     #[getter]
     fn passenger_cost_usd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
@@ -157,15 +157,15 @@ impl Scenario {
         )?)
     }
 
-    /// Flight cost, which is what a flight costs with or without passengers, energy excluded,
-    /// dollars [vertiports, vertiports].
+    /// Flight cost: the cost of a flight with or without passengers, energy excluded, dollars
+    /// [vertiports, vertiports].
     #[getter]
     fn flight_cost_usd<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let size = self.scenario.vertiports.len();
         read_only(table(py, self.scenario.flight_cost_usd.cells().iter().copied(), [size, size])?)
     }
 
-    /// Aircraft cost, which is what each aircraft costs regardless of its flights, dollars per day.
+    /// Aircraft cost: the fixed cost of each aircraft, dollars per day.
     #[getter]
     fn aircraft_cost_usd(&self) -> f64 {
         self.scenario.aircraft_cost_usd

@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::interruptible;
 use crate::whole_number::WholeNumber;
 
-/// A fixed number of threads, which are started when they are first needed.
+/// A fixed number of threads, which are started at their first use.
 pub(crate) struct Threads {
     number: usize,
     pool: Option<Pool>,

@@ -1,4 +1,4 @@
-//! `Trace`: every decision of a day, and `check`, which judges a trace independently of the
+//! `Trace`: every decision of a day, and `check`, which checks a trace independently of the
 //! simulator.
 
 use std::path::PathBuf;
@@ -95,8 +95,8 @@ impl Trace {
         frame(&self.columns(py)?, "polars")
     }
 
-    /// The trace as a picture: where passengers flew, what every aircraft did, how full the
-    /// vertiports were, and how much demand was served and spilled.
+    /// The trace as a picture: the passengers by pair, the schedule of every aircraft, the
+    /// occupancy of the vertiports, and the demand served and spilled.
     pub(crate) fn plot(&self, py: Python<'_>) -> Picture {
         Picture { text: py.detach(|| schedule(&self.scenario, &self.trace.rows)) }
     }
@@ -130,7 +130,7 @@ impl Trace {
 /// Checks a schedule against the rules, independently of the simulator. Returns the report as a
 /// dict: `valid`, `totals` (the results of the day, computed again), `broken` (how often each rule
 /// is broken) and `findings` (where it is broken). A schedule of another day is matched by the ids
-/// of its vertiports and aircraft, as a file would be.
+/// of its vertiports and aircraft, like a file.
 #[pyfunction]
 #[pyo3(signature = (scenario, trace))]
 pub(crate) fn check<'py>(

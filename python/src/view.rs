@@ -1,4 +1,4 @@
-//! `View`: a decision and the day as a policy may look at it.
+//! `View`: a decision and a policy's view of the day.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -13,13 +13,13 @@ use crate::frames::read_only;
 use crate::layout::Layout;
 use crate::observation::{Shown, scene, show, shown};
 
-/// A decision, and the day at that moment as a policy may look at it.
+/// A decision, and the policy's view of the day at that moment.
 #[pyclass(frozen, module = "vertifleet._native")]
 pub(crate) struct View {
     snapshot: Snapshot,
     decision: Decision,
     over: bool,
-    /// What the views of a day share, so that its bid prices are found once.
+    /// The state that the views of a day share, so that its bid prices are computed once.
     observer: Arc<Mutex<Observer>>,
 }
 
@@ -140,7 +140,7 @@ impl View {
         }
     }
 
-    /// The decision with what is seen of the day.
+    /// The decision with the view of the day.
     pub(crate) fn scene(&self) -> Scene<'_> {
         scene(self.snapshot.view(), self.over, &self.decision)
     }

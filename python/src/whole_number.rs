@@ -1,5 +1,5 @@
-//! Whole numbers from Python, which may have any size. They are checked when the type that they are
-//! needed in is known.
+//! Whole numbers from Python, which may have any size. They are checked when their required type is
+//! known.
 
 use pyo3::prelude::*;
 use pyo3::{Borrowed, PyErr};

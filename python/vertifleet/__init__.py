@@ -1,10 +1,10 @@
-"""Fleets of electric air taxis: where every aircraft flies next, so that the day earns the most.
+"""Fleets of electric air taxis: decides where every aircraft flies next, for the highest profit of the day.
 
-The Rust program does all the work here, by the same rules. `Network` draws days, `simulate` plays one day,
-`compare` plays many days with many policies, `evaluate` plays frozen suites whose certified bounds are
-shipped, `sweep` compares on variations of a network, `bound` proves how much a day can earn at most, `plan`
-searches for the best schedule, `check` checks a schedule against the rules, and `train` trains the learned
-policies. `dataset` records decisions to learn from. Importing the package registers Gymnasium environments,
+The package runs the code of the Rust program. `Network` draws days, `simulate` plays one day, `compare` plays
+many days with many policies, `evaluate` plays frozen suites whose certified bounds are shipped, `sweep`
+compares on variations of a network, `bound` proves an upper bound on a day's profit, `plan` searches for the
+best schedule, `check` checks a schedule against the rules, and `train` trains the learned policies. `dataset`
+records decisions to learn from. Importing the package registers Gymnasium environments,
 ``vertifleet/Fleet-v0`` first. `vertifleet.torch` has the learned policies as PyTorch modules;
 `vertifleet.sb3` and `vertifleet.ray` train them with those libraries.
 """

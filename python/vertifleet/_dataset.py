@@ -1,4 +1,4 @@
-"""Decisions of a policy with what it saw, for learning from them: recorded, kept as Parquet, read again."""
+"""Datasets for learning: a policy's decisions with its observations, recorded and stored as Parquet."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 FORMAT = "vertifleet-dataset/1"
 OBSERVATION = "observation."
-"""What the names of the observations' columns begin with in a file."""
+"""The prefix of the observations' columns in a file."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -43,10 +43,10 @@ class Dataset:
     day: NDArray[np.str_]
     """The name of the day."""
     values: NDArray[np.float64] | None = None
-    """What the policy compared choices by, NaN for those that it did not consider [decisions, N].
+    """The values by which the policy compared choices, NaN for those that it did not consider [decisions, N].
 
-    "rolling" may choose another than the highest, which it found by trying; "random" and policies of your own
-    have none."""
+    "rolling" may choose another than the highest, if its trials found a better one; "random" and your
+    policies have none."""
 
     def __len__(self) -> int:
         return len(self.action)
@@ -65,8 +65,8 @@ class Dataset:
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes a Parquet file, whose columns are named as the attributes here.
 
-        An array of several numbers a decision is a column of lists, and its shape stands in the file's
-        metadata. Needs PyArrow: ``pip install vertifleet[data]``. An existing file is replaced.
+        An array with several numbers for each decision is a column of lists; the file's metadata contains its
+        shape. Needs PyArrow: ``pip install vertifleet[data]``. An existing file is replaced.
         """
         import pyarrow as pa
         import pyarrow.parquet as pq
@@ -141,22 +141,21 @@ def dataset(
     seed: SupportsIndex = 0,
     threads: int | None = None,
 ) -> Dataset:
-    """Plays days with a policy, and keeps every decision with what could be seen at it.
+    """Plays days with a policy, and records every decision with its observation.
 
     A decision of "full" on ``paper`` takes 6.7 kB, so a thousand days take 2.4 GB of memory: for more, call
     it with other days (`first`) and write a file each time.
 
     Args:
-        policy: a name as in ``vertifleet simulate``, a model, or a policy of your own as in `evaluate`.
+        policy: a name as in ``vertifleet simulate``, a model, or your policy as in `evaluate`.
         days: number of days.
-        network: what the days are drawn from, as an environment takes it.
-        observation: what is kept of each decision: "paper", "full", "gcaps-x", "gcaps-full", or a list of
-            parts.
-        split: whose days are drawn: "training", "validation" or "comparison".
+        network: the source of the days, as in an environment.
+        observation: the observation to record: "paper", "full", "gcaps-x", "gcaps-full", or a list of parts.
+        split: the purpose of the days: "training", "validation" or "comparison".
         first: number of the first day; other numbers are other days.
-        values: whether to keep what the policy compares choices by, which takes longer.
+        values: whether to record the values by which the policy compares choices, which takes longer.
         seed: seed of the random policy.
-        threads: most threads to use; all cores by default.
+        threads: largest number of threads; all cores by default.
 
     Raises:
         Error: V451 for an `OwnObservation`; otherwise with the program's code for the error.

@@ -14,9 +14,9 @@ class Error(Exception):
         self.code = code
         """The stable code, for example ``V104``."""
         self.message = message
-        """What is wrong, where and why."""
+        """The error, its place and its cause."""
         self.hint = hint
-        """How to fix it, if the message does not say so already."""
+        """How to fix it, if the message does not contain that already."""
 
     def __str__(self) -> str:
         text = f"{self.code}: {self.message}"

@@ -88,9 +88,7 @@ class Network:
         """Number of aircraft."""
     @property
     def feature_scales(self) -> dict[str, float]:
-        """The numbers that the features of learned policies are divided by, as in the headers of weight
-        files.
-        """
+        """The divisors of the features of learned policies, as in the headers of weight files."""
     @property
     def mean_demand(self) -> _Float:
         """Mean demand, passengers [periods, vertiports, vertiports]. The demand of the drawn days scatters
@@ -105,15 +103,13 @@ class Network:
         """Restores a pickled network."""
     @property
     def source(self) -> str:
-        """The Python expression that made the network, for people to read. A report contains it in its
-        command.
-        """
+        """The Python expression that made the network. A report contains it in its command."""
     def draw(
         self, seed: SupportsIndex, purpose: Literal["comparison", "validation", "training"] = "comparison"
     ) -> Scenario:
         """Draws the day of a seed. The same seed gives the same day everywhere.
 
-        Days for different purposes ("comparison", "validation", "training") are never the same, so that no
+        Days for different purposes ("comparison", "validation", "training") are disjoint, so that no
         policy is judged on a day that it learned from.
         """
 
@@ -124,7 +120,7 @@ class Scenario:
     draw it from a changed network, or change the text of this day (`to_json`, `from_json`).
     """
     def plot(self) -> Picture:
-        """The day as a picture: its vertiports, and who wants to fly where and when."""
+        """The day as a picture: its vertiports, and its demand by pair and by time."""
     def _repr_svg_(self) -> str: ...
     @staticmethod
     def read(path: _Path) -> Scenario:
@@ -157,7 +153,7 @@ class Scenario:
         """Ids of the aircraft."""
     @property
     def start_positions(self) -> NDArray[np.int64]:
-        """Where each aircraft stands when operations start, as positions of vertiports [aircraft]."""
+        """The initial place of each aircraft, as positions of vertiports [aircraft]."""
     @property
     def stands(self) -> NDArray[np.int64]:
         """Number of stands at each vertiport [vertiports]."""
@@ -173,24 +169,24 @@ class Scenario:
     @property
     def demand(self) -> NDArray[np.int64]:
         """Demand, passengers [periods, vertiports, vertiports]. Where it differs from the forecast, no
-        policy sees it.
+        policy observes it.
         """
     @property
     def fare_usd(self) -> _Float:
         """Fares, dollars per passenger [periods, vertiports, vertiports]."""
     @property
     def passenger_cost_usd(self) -> _Float:
-        """Passenger cost, which is what carrying a passenger costs, dollars per passenger [vertiports,
+        """Passenger cost: the cost of carrying a passenger, dollars per passenger [vertiports,
         vertiports].
         """
     @property
     def flight_cost_usd(self) -> _Float:
-        """Flight cost, which is what a flight costs with or without passengers, energy excluded, dollars
+        """Flight cost: the cost of a flight with or without passengers, energy excluded, dollars
         [vertiports, vertiports].
         """
     @property
     def aircraft_cost_usd(self) -> float:
-        """Aircraft cost, which is what each aircraft costs regardless of its flights, dollars per day."""
+        """Aircraft cost: the fixed cost of each aircraft, dollars per day."""
     @property
     def energy_price_usd(self) -> _Float:
         """Price of electricity, dollars per kWh [periods]."""
@@ -204,8 +200,8 @@ class Trace:
     a complete schedule.
     """
     def plot(self) -> Picture:
-        """The trace as a picture: where passengers flew, what every aircraft did, how full the vertiports
-        were, and how much demand was served and spilled.
+        """The trace as a picture: the passengers by pair, the schedule of every aircraft, the occupancy of
+        the vertiports, and the demand served and spilled.
         """
     def _repr_svg_(self) -> str: ...
     @property
@@ -279,7 +275,7 @@ class Played:
 
 @final
 class Bound:
-    """A proven upper bound on what any schedule of a day earns."""
+    """A proven upper bound on the profit of every schedule of a day."""
     @staticmethod
     def of_numbers(
         scenario: Scenario,
@@ -298,13 +294,11 @@ class Bound:
         """The upper bound, dollars. No schedule of the day earns more."""
     @property
     def is_final(self) -> bool:
-        """Whether the search for the bound came to its end. If not, a longer search may find a lower
-        bound.
-        """
+        """Whether the search for the bound is complete. If not, a longer search may find a lower bound."""
     @property
     def step(self) -> int:
-        """Minutes for which the prices of the bound stay the same. This may be more than requested, if
-        longer slices prove a lower bound.
+        """Longest interval, in minutes, for which the prices of the bound stay the same. This may be more
+        than requested, if longer slices prove a lower bound.
         """
     @property
     def stand_shadow_price_usd(self) -> _Float:
@@ -317,8 +311,8 @@ class Bound:
         passenger, no schedule earns more than the bound plus this price.
         """
     def gap(self, profit_usd: float) -> float:
-        """The gap: by how much a profit is below the bound, as a share of the bound. Both are taken before
-        the costs of aircraft and sites, which no decision changes.
+        """The gap: the distance of a profit below the bound, as a share of the bound. Both are taken
+        before the costs of aircraft and sites, which no decision changes.
         """
 
 @final
@@ -339,7 +333,7 @@ class Plan:
         """Every decision of the day."""
     @property
     def profit_usd(self) -> float:
-        """Profit of the day, as the simulator accounts for it, dollars."""
+        """Profit of the day, as the simulator computes it, dollars."""
     @property
     def best_policy(self) -> str:
         """Name of the best of the policies that finished the day in time."""
@@ -356,7 +350,7 @@ class Plan:
         """
     @property
     def gap(self) -> float | None:
-        """By how much the plan's profit is below the bound, as a share of the bound. The best schedule is
+        """The distance of the plan's profit below the bound, as a share of the bound. The best schedule is
         at most this much better.
         """
 
@@ -367,7 +361,7 @@ class Model:
     """
     @staticmethod
     def read(path: _Path) -> Model:
-        """Reads a weight file, which is a safetensors file, of any learned policy."""
+        """Reads a weight file of any learned policy, which is a safetensors file."""
     @staticmethod
     def from_bytes(bytes: bytes, origin: str = "<bytes>") -> Model:  # noqa: A002
         """Reads the weights from the bytes of a weight file. `origin` is the name of the file in messages."""
@@ -388,9 +382,7 @@ class Model:
         """The name of the policy: gcaps, mlp, gcaps-x, gcaps-full or mlp-full."""
     @property
     def header(self) -> dict[str, Any]:
-        """The header of the weight file, as a dict. It says what the weights were trained for and where
-        they came from.
-        """
+        """The header of the weight file, as a dict. It contains the task and the origin of the weights."""
     @property
     def tensors(self) -> dict[str, _Float32]:
         """Copies of the tensors by name."""
@@ -519,14 +511,14 @@ def find_suite(name: str) -> tuple[str, str | None, list[Scenario], list[float],
 
 @final
 class Days:
-    """Where days come from: given networks, or networks drawn for each day. Every number names a day."""
+    """The source of days: given networks, or a new network for each day. Every number names a day."""
     def __new__(cls, source: str | Sequence[Network], split: str) -> Days: ...
     @staticmethod
     def are_drawn(name: str) -> bool:
-        """Whether a name stands for networks drawn for each day."""
+        """Whether a name stands for a source that draws a new network for each day."""
     @property
     def sizes(self) -> tuple[int, int, int, int]:
-        """The most vertiports, aircraft, types and periods of a day."""
+        """Largest numbers of vertiports, aircraft, types and periods of a day."""
     @property
     def are_of_one_size(self) -> bool:
         """Whether all days have the same vertiports, aircraft, types and periods."""
@@ -536,7 +528,7 @@ class Days:
 
 @final
 class Layout:
-    """The parts of an observation, side by side in one row of numbers."""
+    """The parts of an observation in one row of numbers."""
     def __new__(cls, parts: Sequence[str], sizes: tuple[int, int, int, int]) -> Layout: ...
     @staticmethod
     def preset(name: str) -> list[str] | None:
@@ -549,11 +541,11 @@ class Layout:
         """Number of numbers in a row."""
     @property
     def shows_present_only(self) -> bool:
-        """Whether all parts show the present alone, and nothing that is known or expected of the future."""
+        """Whether all parts describe the present alone, without forecasts or announcements."""
 
 @final
 class View:
-    """A decision, and the day at that moment as a policy may look at it."""
+    """A decision, and the policy's view of the day at that moment."""
     def array(self, name: str) -> _Float32:
         """The array of a part in its unit, read-only; it belongs to the caller."""
     def observe(self, layout: Layout) -> _Shown:
@@ -602,28 +594,28 @@ class View:
 
 @final
 class Policy:
-    """One of the program's policies, to be asked about any decision:
+    """One of the program's policies, which can be called for any decision:
     `vertifleet.policy("rolling").values(env.view)`.
 
-    Asked about the decisions of a day in their order, it remembers the day's bid prices as it does when it
-    plays, so it makes the choices that `vertifleet simulate` makes.
+    Called for the decisions of a day in order, it keeps the day's bid prices as in play, so it makes the
+    choices of `vertifleet simulate`.
     """
     @property
     def name(self) -> str:
         """The policy's name."""
     @property
     def sees(self) -> str:
-        """What it sees: "present", "forecast" or "whole day"."""
+        """The information that it uses: "present", "forecast" or "whole day"."""
     def choose(self, view: View) -> int:
         """The position of the vertiport that it chooses."""
     def values(self, view: View) -> _Float:
-        """What it compares choices by, the higher the better; NaN for a choice that it does not consider
-        [N].
+        """The values by which it compares choices, the higher the better; NaN for a choice that it does
+        not consider [N].
         """
 
 def find_policy(name: str, network: str, seed: SupportsIndex, model: _Path | Model | None) -> Policy:
     """Finds a policy by its name, as `simulate` does. `network` is the name of the network whose shipped
-    weights are meant, `seed` that of the random policy, and `model` a weight file or a `Model`.
+    weights are used, `seed` that of the random policy, and `model` a weight file or a `Model`.
     """
 
 @final
@@ -662,10 +654,10 @@ class Environment:
         """The feasible actions, as booleans [N]. Before the first day all of them are false."""
     @property
     def view(self) -> View | None:
-        """What may be seen of the current decision."""
+        """The view of the current decision."""
     @property
     def outcome(self) -> Any:
-        """What came of the latest choice."""
+        """The outcome of the latest choice."""
     @property
     def aircraft(self) -> int | None:
         """Position of the aircraft that decides, or, when the day is over, of the aircraft that decided
@@ -683,7 +675,7 @@ class Environment:
 
 @final
 class Batch:
-    """Many days side by side."""
+    """Many days in parallel."""
     def __new__(
         cls,
         days: Days,
@@ -705,19 +697,19 @@ class Batch:
     ) -> int:
         """Begins a day at each slot for which `which` is true: the day with the slot's number in
         `numbers`, or its scenario if these are given. Writes the observations of all slots, and returns
-        the index of the set that they are in.
+        the index of their set.
         """
     def step(self, actions: NDArray[np.int64], numbers: NDArray[np.uint64]) -> tuple[int, bool]:
         """Takes one decision at every slot. Where a new day is due, the day with the slot's number in
-        `numbers` begins. Returns the index of the set that the observations are in, and whether any day
-        is over or has begun.
+        `numbers` begins. Returns the index of the set of the observations, and whether any day is over
+        or has begun.
         """
     def scenario(self, slot: int) -> Scenario | None:
         """The day that is being played at a slot."""
     def view(self, slot: int) -> View | None:
-        """What may be seen of the current decision of a slot."""
+        """The view of the current decision of a slot."""
     def outcome(self, slot: int) -> Any:
-        """What came of the latest step's choice at a slot; `None` if the step began a day there instead."""
+        """The outcome of the latest step's choice at a slot; `None` if the step began a day there instead."""
     def summary(self, slot: int) -> dict[str, Any] | None:
         """The results of the day that the latest step ended at a slot, as `vertifleet simulate --json`
         prints them, or `None` if it ended no day there.
@@ -734,11 +726,11 @@ def simulate(
     """Plays a day to its end with a policy. The policy is one of the following: a name as in `vertifleet
     simulate`, with `seed` for the random policy and `model` for a weight file or a `Model` to use
     instead of the shipped weights; a `Model`; a `Trace` of this day, which is replayed; or a function
-    as for `compare`, which sees the day as the environment of `network` shows it.
+    as for `compare`, which observes the day as in the environment of `network`.
     """
 
 def bound(scenario: Scenario, *, step: SupportsIndex = 5) -> Bound:
-    """Proves an upper bound on what any schedule of a day earns. `step` is the length of the bound's
+    """Proves an upper bound on the profit of every schedule of a day. `step` is the length of the bound's
     slices in minutes, 1 to 60. Shorter slices never give a looser bound, but take longer.
     """
 
@@ -763,7 +755,7 @@ def check(scenario: Scenario, trace: Trace) -> dict[str, Any]:
     """Checks a schedule against the rules, independently of the simulator. Returns the report as a dict:
     `valid`, `totals` (the results of the day, computed again), `broken` (how often each rule is broken)
     and `findings` (where it is broken). A schedule of another day is matched by the ids of its
-    vertiports and aircraft, as a file would be.
+    vertiports and aircraft, like a file.
     """
 
 def check_comparison(network: Network | None, arguments: Mapping[str, Any]) -> list[str]:
@@ -798,8 +790,8 @@ def record(
 ) -> dict[str, Any]:
     """Plays the days with these numbers, and returns a dict: `days` (names), `decisions` (number of each
     day), `rows` [D, W], `mask` [D, N], `action` [D], `reward` [D] (each flight's share of the day's
-    reward), and `values` [D, N] if they are asked for. `policy` is a name, or with `source` the name of
-    a model or of a policy of the caller, which sees the days as days of `network`.
+    reward), and `values` [D, N] if they are requested. `policy` is a name, or with `source` the name of
+    a model or of a policy of the caller, which observes the days as days of `network`.
     """
 
 def read_days(paths: Sequence[_Path]) -> tuple[list[Scenario], str]:
@@ -865,6 +857,6 @@ def train(
     threads: SupportsIndex | None = None,
     watch: Callable[[dict[str, Any]], object] | None = None,
 ) -> Training:
-    """Trains a policy on a network, or on networks drawn for each day. Ctrl-C ends the run with a
+    """Trains a policy on a network, or on a new network for each day. Ctrl-C ends the run with a
     checkpoint, from which `resume` continues it.
     """

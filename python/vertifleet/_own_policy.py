@@ -1,4 +1,4 @@
-"""Policies of the caller's own: functions of an observation, and objects that choose."""
+"""Policies of the caller: functions of an observation, and objects that choose."""
 
 from __future__ import annotations
 
@@ -27,12 +27,10 @@ PolicyFunction: TypeAlias = Callable[[Any], Any]
 
 @runtime_checkable
 class OwnPolicy(Protocol):
-    """A policy with a memory: a class, of which each day gets a separate object, or one object for all
-    days.
+    """A policy with a memory: a class, which is instantiated for each day, or one object for all days.
 
     It may also have a method ``reset(view)``, which is called at the first decision of each day. Days are
-    played side by side, so an object that remembers something between calls needs ``threads=1``; a class does
-    not.
+    played in parallel, so an object that keeps state between calls needs ``threads=1``; a class does not.
     """
 
     def choose(self, decision: Decision, view: View) -> SupportsIndex:
@@ -44,14 +42,14 @@ class OwnPolicy(Protocol):
 
 @runtime_checkable
 class BatchPolicy(Protocol):
-    """A policy that is asked about one decision of each of many days at once, as networks are fast.
+    """A policy that decides for many days at once, one decision of each, which is fast for networks.
 
-    Days that are over are no longer asked about, so the rows of two calls may be of other days. A policy that
-    remembers something of a day is better an `OwnPolicy`.
+    Finished days are left out, so the rows of two calls may belong to different days. A policy that keeps
+    state of a day should be an `OwnPolicy`.
     """
 
     def choose_batch(self, decisions: Sequence[Decision], views: Sequence[View]) -> Sequence[SupportsIndex]:
-        """The choice for each decision, as `OwnPolicy.choose` makes it."""
+        """The choice for each decision, as `OwnPolicy.choose` returns it."""
 
 
 @dataclass(frozen=True)
@@ -65,28 +63,28 @@ class FunctionPolicy:
     returns as many actions. It is then called for all days of a comparison together, which is much faster for
     a network."""
     network: NetworksChoice | None = None
-    """What the environment drew its days from, where it was not the network of the days to be played. On
-    networks of different sizes a function needs it, for the shapes of its arrays: ``network="random"``."""
+    """The source of the environment's days, if it was not the network of the days to play. A function for
+    networks of different sizes needs it for the shapes of its arrays: ``network="random"``."""
 
 
 class Adapted(NamedTuple):
-    """A policy of the caller's, as the native side asks it."""
+    """A policy of the caller, in the form that the native side calls."""
 
     make: Callable[[], Chooser | BatchChooser]
     """Makes the function from a view to an action for a day, or from many views to as many actions."""
     shows_present_only: bool
-    """Whether it sees the present only."""
+    """Whether it observes the present only."""
     days: Days | None
-    """The days as days of which it sees them."""
+    """The source of days whose shapes its observations have."""
     in_batches: bool
 
 
 def adapted(policy: Any, network: Network | None) -> Adapted:
-    """What the native side asks in place of the policy.
+    """The object that the native side calls in place of the policy.
 
     Raises:
         Error: V451 for a function without a network.
-        TypeError: for what is no policy.
+        TypeError: if the object is not a policy.
     """
     if hasattr(policy, "choose_batch"):
         return Adapted(

@@ -1,4 +1,4 @@
-"""The program's own policies, to be asked about any decision."""
+"""The program's policies, which can be called for any decision."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from vertifleet._view import Decision, View
 class Policy:
     """One of the program's policies.
 
-    Asked about the decisions of a day in their order, it plays as the program does. It has the form of a
-    policy of one's own, so it can be wrapped by one, or be the teacher of a learned policy.
+    Called for the decisions of a day in order, it plays as the program does. It has the form of an
+    `OwnPolicy`, so one can wrap it, and it can be the teacher of a learned policy.
     """
 
     def __init__(self, native: _native.Policy) -> None:
@@ -31,7 +31,7 @@ class Policy:
 
     @property
     def sees(self) -> str:
-        """What it looks at: "present", "forecast" or "whole day"."""
+        """The information that it uses: "present", "forecast" or "whole day"."""
         return self._native.sees
 
     def choose(self, decision: Decision, view: View) -> int:
@@ -45,7 +45,8 @@ class Policy:
         return self._native.choose(view._native)
 
     def values(self, view: View) -> NDArray[np.float64]:
-        """What it compares choices by [N], the higher the better; NaN for a choice that it does not consider.
+        """The values by which it compares choices [N], the higher the better; NaN for a choice that it does
+        not consider.
 
         Dollars an hour for "greedy"; dollars for "prices", "rolling" and "gcaps-x"; logits
         for "gcaps" and "mlp"; NaN for all of "random".
@@ -72,6 +73,7 @@ def policy(
         model: weights to use instead of the shipped ones.
 
     Raises:
-        Error: with the program's code if there is no such policy; V451 for "plan", which knows the whole day.
+        Error: with the program's code if there is no such policy; V451 for "plan", which knows the whole day
+            in advance.
     """
     return Policy(_native.find_policy(name, network, seed, model))

@@ -28,27 +28,27 @@ def train(
     threads: int | None = None,
     watch: Callable[[dict[str, Any]], object] | None = None,
 ) -> Training:
-    """Trains a policy with the program's own trainer, as ``vertifleet train`` does, and as fast.
+    """Trains a policy with the program's trainer, as ``vertifleet train`` does, at the same speed.
 
-    Ctrl-C ends it soon: a checkpoint is written of the run as it was after the last row of its curve, and the
-    same call with ``resume=True`` continues from there, bit for bit as if the run had never stopped.
+    Ctrl-C ends it soon. It then writes a checkpoint of the state after the last row of the curve; the same
+    call with ``resume=True`` continues from there, bit for bit as if the run had never stopped.
 
     Args:
-        network: the network, its name, or the path of its file; or networks drawn for each day,
-            "random" or "random-places:8".
+        network: the network, its name, or the path of its file; or a new network for each day, "random" or
+            "random-places:8".
         policy: "gcaps", "mlp", "gcaps-x", "gcaps-full" or "mlp-full".
         out: folder for weights, learning curve, checkpoint and TensorBoard's events; it may hold runs of
             several policies.
         preset: settings to start from: "default" or "evolution"; for "gcaps" and "mlp" also "paper" or
             "imitation".
-        settings: settings and sizes of the policy to change, by name, as ``--set`` does.
-        seed: seed of the run; first weights, training days and choices follow from it.
-        begin_with: weights of the same kind of policy to begin with in place of fresh ones, a ``Model`` or
-            the path of a weight file.
+        settings: settings and sizes of the policy to change, by name, as with ``--set``.
+        seed: seed of the run; initial weights, training days and choices follow from it.
+        begin_with: initial weights, from the same kind of policy, in place of random ones: a ``Model`` or the
+            path of a weight file.
         resume: whether to resume the run in the folder, which must have the same network, policy, settings,
-            seed and weights to begin with.
+            seed and initial weights.
         force: whether to replace files that the program did not write or that are read-only.
-        threads: most threads to use; all cores by default. Results are the same with any number.
+        threads: largest number of threads; all cores by default. Results do not depend on it.
         watch: called with every new row of the learning curve, a dict; if it raises, a checkpoint is written
             and the run ends.
 

@@ -1,4 +1,4 @@
-"""What a policy, an observation or a reward of the caller's own may look at."""
+"""The view of a day for a policy, an observation or a reward of the caller."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Decision(NamedTuple):
 
 
 class Outcome(TypedDict):
-    """What came of a choice. A hold earns and costs nothing, and its destination is its origin."""
+    """The outcome of a choice. A hold earns and costs nothing, and its destination is its origin."""
 
     time_s: int
     aircraft: int
@@ -49,8 +49,8 @@ class Outcome(TypedDict):
 class View:
     """A decision, and the day at that moment: the present, what is known ahead, and the forecast.
 
-    It shows all that the program's own policies may see, and nothing else. The arrays are read-only, and each
-    is made when it is first asked for. Tables of pairs are [from, to]; N vertiports, A aircraft, P demand
+    It contains the same information as the views of the program's policies. The arrays are read-only, and
+    each is created at its first use. Tables of pairs are [from, to]; N vertiports, A aircraft, P demand
     periods.
     """
 
@@ -77,7 +77,7 @@ class View:
     passenger_cost_usd: Numbers
     """[N, N] cost of a passenger."""
     flight_cost_usd: Numbers
-    """[N, N] cost of a flight, without its energy."""
+    """[N, N] cost of a flight without its energy."""
     distance_mi: Numbers
     """[N, N] distance."""
     flight_time_h: Numbers
@@ -93,11 +93,11 @@ class View:
     closed_ahead: Numbers
     """[N, N, 4] 1 where the route is known to be closed in 15, 30, 45 and 60 minutes."""
     stands: Numbers
-    """[N] stands, or chargers where they are counted apart."""
+    """[N] stands, or chargers if they are counted separately."""
     stands_taken: Numbers
     """[N] aircraft at these or in the air towards them."""
     parking: Numbers
-    """[N] stands without chargers, where chargers are counted apart."""
+    """[N] stands without chargers, if chargers are counted separately."""
     parked: Numbers
     """[N] aircraft at these."""
     energy_price_usd: Numbers
@@ -131,7 +131,7 @@ class View:
 
     @property
     def decision(self) -> Decision:
-        """The decision that is to be taken; when the day is over, the one that was taken last."""
+        """The pending decision; when the day is over, the last one."""
         native = self._native
         return Decision(native.time_s, native.aircraft, native.place, native.index)
 

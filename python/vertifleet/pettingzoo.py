@@ -54,13 +54,12 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
     """Agent ``aircraft_k`` decides for aircraft k whenever that aircraft is ready for take-off.
 
     Actions, features and masks are those of `FleetEnv`, with the same arguments; an observation is
-    ``{"observation": parts, "action_mask": mask}``, as the agent would see the network now. The reward of an
-    agent is what its own flights earn, over the potential of the day: paid flight by flight
-    (``reward="dense"``) or all at the end (``"terminal"``). The rewards of all agents add up to the reward of
-    `FleetEnv`. All agents terminate with the day, whose numbers `summary` has. An info says whether the
-    agent's latest action was infeasible. On networks of different sizes the agents of a day are the first of
-    `possible_agents`. An environment can be copied and pickled in the middle of a day; copies share its
-    network and spaces.
+    ``{"observation": parts, "action_mask": mask}`` from the agent's current vertiport. The reward of an agent
+    is the profit of its flights over the potential of the day: paid flight by flight (``reward="dense"``) or
+    all at the end (``"terminal"``). The rewards of all agents add up to the reward of `FleetEnv`. All agents
+    terminate with the day; `summary` has its numbers. An info contains whether the agent's latest action was
+    infeasible. On networks of different sizes the agents of a day are the first of `possible_agents`. An
+    environment can be copied and pickled in the middle of a day; copies share its network and spaces.
     """
 
     metadata: ClassVar[dict[str, Any]] = METADATA | {"name": "fleet_v0", "is_parallelizable": False}
@@ -94,7 +93,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         self._state = Observing("full", self._days)
         self.reward = name
         self.render_mode = mode_of(render_mode)
-        # The native environment pays flight by flight, which shows which agent earned each dollar.
+        # The native environment pays flight by flight, so each reward belongs to one agent.
         self._environment = Environment(self._days, self._observing.layout, "dense")
         vertiports, fleet, *_ = self._days.sizes
         self.possible_agents = [f"aircraft_{position}" for position in range(fleet)]
@@ -124,7 +123,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         return spaces.Box(-np.inf, np.inf, (self._state.layout.width,), np.float32)
 
     def state(self) -> NDArray[np.float32]:
-        """All that may be seen of the day now: the parts of the observation "full", one after the other.
+        """The complete view of the day now: the parts of the observation "full", one after the other.
 
         Raises:
             Error: V451 before the first day.
@@ -136,14 +135,14 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         return row
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
-        """Begins the day that `FleetEnv` has for this seed, ``options["scenario"]``, or the day with the
-        number ``options["number"]``.
+        """Begins the day of `FleetEnv` for this seed, ``options["scenario"]``, or the day with the number
+        ``options["number"]``.
 
         Raises:
             Error: V451 for other options, or for a day with another number of vertiports or aircraft; V118
                 for a number that no day has.
         """
-        # PettingZoo's own test passes an option of this name to check that options are accepted.
+        # PettingZoo's test passes an option of this name to check that options are accepted.
         asked = options_of(options, "number", "options")
         scenario: Scenario | None = asked.get("scenario")
         if seed is not None or self._np_random is None:
@@ -195,7 +194,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
         return rendered(self._environment, self.render_mode)
 
     def step(self, action: int | None) -> None:
-        """Carries the decision of the selected agent out and goes on to the next.
+        """Carries the decision of the selected agent out and advances to the next.
 
         Args:
             action: the position of a vertiport; None for an agent that has terminated, as in PettingZoo.
@@ -235,8 +234,8 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
 class FleetParallel(Copied, ParallelEnv[str, dict[str, Any], int]):
     """`FleetAEC` for libraries in which all agents act at once.
 
-    Aircraft decide one after the other, so of the actions of a step only that of the agent `deciding` counts.
-    The masks of all others permit nothing but to hold.
+    Aircraft decide one after the other, so only the action of the agent `deciding` counts in a step. The
+    masks of all others permit only hold.
     """
 
     metadata: ClassVar[dict[str, Any]] = METADATA | {"name": "fleet_v0"}
@@ -264,7 +263,7 @@ class FleetParallel(Copied, ParallelEnv[str, dict[str, Any], int]):
         return self.turns.state_space
 
     def state(self) -> NDArray[np.float32]:
-        """All that may be seen of the day now."""
+        """The complete view of the day now."""
         return self.turns.state()
 
     @property

@@ -1,6 +1,6 @@
-"""A client of the dispatch service, which ``vertifleet serve`` runs: live days, their events and decisions.
+"""A client of the dispatch service that ``vertifleet serve`` runs: live days, their events and decisions.
 
-Needs httpx: ``pip install vertifleet[client]``. A day from its making to a decision that a person changes::
+Needs httpx: ``pip install vertifleet[client]``. A day, and a decision that a person changes::
 
     from vertifleet.client import Client
 
@@ -27,8 +27,8 @@ The same with asyncio::
 
     asyncio.run(main())
 
-`vertifleet.client.types` has the types of all that the service is asked and answers. Errors are
-`ServiceError`, with the codes of the error index.
+`vertifleet.client.types` has the types of requests and answers. Errors are `ServiceError`, with the codes of
+the error index.
 """
 
 from __future__ import annotations

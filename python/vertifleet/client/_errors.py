@@ -1,4 +1,4 @@
-"""What can go wrong between a client and the service, with the codes of the error index."""
+"""The errors of the client, with the codes of the error index."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from vertifleet._errors import Error
 from vertifleet.client.types import Problem
 
 TRANSIENT = frozenset({408, 429, 502, 503, 504})
-"""Statuses that say that the same request may be carried out later."""
+"""Statuses of temporary errors: the same request may succeed later."""
 
 
 class ServiceError(Error):
-    """What the service answered in place of what it was asked for.
+    """An error that the service returned.
 
-    ``str(error)`` has the code, what is wrong, and what to do about it. The subclass `NoAnswerError` is
-    raised when there was no answer at all.
+    ``str(error)`` has the code, the cause and the remedy. The subclass `NoAnswerError` is raised when there
+    was no answer at all.
     """
 
     def __init__(self, code: str, message: str, hint: str | None = None, status: int | None = None) -> None:
@@ -26,19 +26,19 @@ class ServiceError(Error):
         # Exceptions are pickled by their arguments.
         self.args = (code, message, hint, status)
         self.status = status
-        """The status of HTTP, for example 412; ``None`` if there was no answer."""
+        """The HTTP status, for example 412; ``None`` if there was no answer."""
         self.tries = 1
         """How often the request was sent."""
 
     @property
     def detail(self) -> str:
-        """What is wrong: the member ``detail`` of the answer. The same as ``message``."""
+        """The cause: the member ``detail`` of the answer. The same as ``message``."""
         return self.message
 
     @property
     def is_transient(self) -> bool:
-        """Whether the same request may be carried out later, so that clients send it again."""
-        # V614: the first sending of this request, whose answer did not come, is still being carried out.
+        """Whether the same request may succeed later, so that clients repeat it."""
+        # V614: the first try of this request, whose answer was lost, is still in progress.
         return self.status in TRANSIENT or self.code == "V614"
 
 
@@ -56,24 +56,25 @@ class NoAnswerError(ServiceError):
 
 
 def error_of(answer: httpx.Response) -> ServiceError:
-    """The error that an answer is, whose body has been read."""
+    """The error in an answer whose body has been read."""
     try:
         problem: Problem = answer.json()
         return ServiceError(problem["code"], problem["detail"], problem.get("hint"), answer.status_code)
     except (ValueError, TypeError, KeyError):
-        # Not from the service: perhaps from a proxy before it, or from another program at this address.
+        # Not from the service: perhaps from a proxy in front of it, or from another program at this
+        # address.
         return stranger(answer)
 
 
 def stranger(answer: httpx.Response) -> ServiceError:
-    """The error for an answer that is not in the service's form."""
+    """The error for an answer that another program sent."""
     said = " ".join(answer.text.split())[:200]
     rule = f"{answer.url}: answered {answer.status_code} {answer.reason_phrase}: {said}"
     return ServiceError("V613", rule, "check the address, and proxies on the way", answer.status_code)
 
 
 def misunderstood(answer: httpx.Response, expected: str) -> ServiceError:
-    """An answer that seems well but is not what the service says."""
+    """The error for an answer that is successful but has another form."""
     rule = f"{answer.url}: the answer is no {expected} of a dispatch service"
     return ServiceError("V613", rule, "check the address, and proxies on the way", answer.status_code)
 

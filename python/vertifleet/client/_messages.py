@@ -1,4 +1,4 @@
-"""Messages of a stream, read from its bytes as they come: server-sent events (HTML Living Standard, 9.2)."""
+"""Parses the messages of a stream from its bytes: server-sent events (HTML Living Standard, 9.2)."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ class Message:
     """A message of a stream."""
 
     kind: str
-    """``message`` for an event of the day, ``behind``, or ``comment`` for a sign of life."""
+    """``message`` for an event of the day, ``behind``, or ``comment`` for an empty line."""
     id: str
     """The number of its event; empty if it has none."""
     text: str
-    """What it says."""
+    """Its data."""
 
 
 class Messages:
-    """Puts messages together.
+    """Assembles messages.
 
     Lines end with line feeds, as the service writes them. A general splitter of lines would also cut a text
     in two at characters such as U+2028, which JSON does not escape.
@@ -46,7 +46,7 @@ class Messages:
                 self._fields[name] = value
 
     def _complete(self) -> Iterator[Message]:
-        """The message that an empty line ends; without data, it is none."""
+        """The message that an empty line ends; none without data."""
         found, self._fields = self._fields, {}
         if "data" in found:
             yield Message(found.get("event", "message"), found.get("id", ""), found["data"])

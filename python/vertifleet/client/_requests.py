@@ -1,4 +1,4 @@
-"""Requests of the API as plain values, made once and sent as often as it takes."""
+"""Requests of the API as plain values, which are made once and may be sent several times."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from urllib.parse import quote, urlsplit
 from vertifleet._errors import Error
 
 FIRST_PAUSE_S = 0.1
-"""A request without an answer is sent again after this time, then after twice as long, and so on."""
+"""A request without an answer is repeated after this time, then after twice as long, and so on."""
 
 LONGEST_PAUSE_S = 5.0
-"""No pause between two sendings is longer."""
+"""The longest pause between two tries."""
 
 
 @dataclass(frozen=True)
 class Request:
-    """A request. Sent again, it is the same to the last byte, so that the service knows it by its key."""
+    """A request. A repeated one has the same bytes, so that the service recognises it by its key."""
 
     method: str
     path: str
@@ -42,32 +42,32 @@ def reading(*path: str, **query: int | str | None) -> Request:
 
 
 def asking(*path: str, body: object, **query: str | None) -> Request:
-    """A request that asks about what it brings, and changes nothing."""
+    """A request with a body that changes nothing."""
     asked = reading(*path, **query)
     return replace(asked, method="POST", headers=header_of(body), body=written(body))
 
 
 def keeping(*path: str, body: object) -> Request:
-    """A request that puts something under a name, which is the same however often it happens."""
+    """A request that stores an object under a name; it is idempotent."""
     return Request("PUT", path_of(*path), headers=header_of(body), body=written(body))
 
 
 def writing(
     *path: str, body: object, if_match: int | None = None, idempotency_key: str | None = None
 ) -> Request:
-    """A request that writes, with a key by which the service knows it again."""
+    """A request that writes, with a key by which the service recognises a repeated one."""
     key = {"Idempotency-Key": idempotency_key or str(uuid.uuid4())}
     headers = {**header_of(body), **key, **matching(if_match)}
     return Request("POST", path_of(*path), headers=headers, body=written(body))
 
 
 def changing(method: str, *path: str, if_match: int | None = None) -> Request:
-    """A request that changes what its path names, to the same however often it happens."""
+    """A request that changes the object at its path; it is idempotent."""
     return Request(method, path_of(*path), headers=matching(if_match))
 
 
 def matching(if_match: int | None) -> dict[str, str]:
-    """The header that makes a request fail if the day has gone on since an event."""
+    """The header that makes a request fail if the day has changed since an event."""
     return {} if if_match is None else {"If-Match": f'"{if_match}"'}
 
 
@@ -77,12 +77,12 @@ def given(members: Mapping[str, object]) -> dict[str, object]:
 
 
 def header_of(body: object) -> dict[str, str]:
-    """What kind of body it is."""
+    """The header with the type of a body."""
     return {"Content-Type": "application/octet-stream" if isinstance(body, bytes) else "application/json"}
 
 
 def written(body: object) -> bytes:
-    """A body as bytes: as it is, or else as JSON."""
+    """A body as bytes: unchanged, or else as JSON."""
     if isinstance(body, bytes):
         return body
     # Mappings need not be dicts.
@@ -90,9 +90,9 @@ def written(body: object) -> bytes:
 
 
 def pauses(retries: int) -> Iterator[float]:
-    """Seconds to wait before a request is sent again: each time about twice as long, and as often as this.
+    """Seconds to wait before each of this many repetitions, each about twice as long as the last.
 
-    They are drawn at random, so that clients that lost their service together do not all come back at once.
+    They are random, so that clients that lost their service together do not all come back at once.
     """
     for attempt in range(retries):
         yield min(FIRST_PAUSE_S * 2**attempt, LONGEST_PAUSE_S) * random.uniform(0.5, 1.0)
@@ -102,7 +102,7 @@ def checked_url(url: str) -> str:
     """An address of a service.
 
     Raises:
-        Error: V451 if it is none.
+        Error: V451 if it is invalid.
     """
     try:
         parts = urlsplit(url)

@@ -1,4 +1,4 @@
-"""The Gymnasium environments: one day at a time, and many days side by side."""
+"""The Gymnasium environments: one day at a time, and many days in parallel."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ VARIANTS = {
     "vertifleet/Fleet-gcaps-x-v0": "gcaps-x",
     "vertifleet/Fleet-gcaps-full-v0": "gcaps-full",
 }
-"""The registered environments, with what each shows."""
+"""The registered environments, with the observation of each."""
 
 
 def register() -> None:
-    """Makes the environments known to `gymnasium.make` and `gymnasium.make_vec`."""
+    """Registers the environments for `gymnasium.make` and `gymnasium.make_vec`."""
     _keep_texts()
     for variant, observation in VARIANTS.items():
         if variant not in gymnasium.registry:
@@ -34,15 +34,15 @@ def register() -> None:
 
 
 def _keep_texts() -> None:
-    """Lets Gymnasium's wrappers for PyTorch and other arrays leave texts in infos as they are.
+    """Makes Gymnasium's wrappers for PyTorch and other arrays leave texts in infos unchanged.
 
-    They convert whatever can be iterated over, element by element, and the elements of a text are texts. The
-    wrappers of Gymnasium 1.1 have no function that could be told so.
+    They convert every iterable, element by element, and the elements of a text are texts. The wrappers of
+    Gymnasium 1.1 have no option for this.
     """
     try:
         from gymnasium.wrappers.array_conversion import array_conversion
     except (ImportError, gymnasium.error.DependencyNotInstalled):
-        return  # Without what they need, these wrappers cannot be used.
+        return  # Without their dependencies, these wrappers cannot be used.
     array_conversion.register(str, _kept)
 
 

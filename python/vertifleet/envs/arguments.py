@@ -16,11 +16,11 @@ from vertifleet._view import Outcome, View
 from vertifleet.envs.days import warn_of_comparison
 
 Reward: TypeAlias = Literal["terminal", "dense"] | Callable[[View, Outcome], float]
-"""What a decision pays: a name, or a function of the decision and of what came of it."""
+"""The reward of a decision: a name, or a function of the decision and its outcome."""
 
 
 def reward_of(reward: object) -> tuple[str, Callable[[View, Outcome], float] | None]:
-    """The name of a reward for the native side, and the function that pays instead, if there is one."""
+    """The name of a reward for the native side, and the function that replaces it, if there is one."""
     if callable(reward):
         return "dense", reward
     if not isinstance(reward, str) or reward not in ("terminal", "dense"):
@@ -30,7 +30,7 @@ def reward_of(reward: object) -> tuple[str, Callable[[View, Outcome], float] | N
 
 
 def number_of(options: Mapping[str, Any]) -> int | None:
-    """The number of a day that a reset is asked for."""
+    """The number of a day in the options of a reset."""
     if "number" not in options:
         return None
     number = whole("option number", options["number"])
@@ -59,7 +59,7 @@ def count_of(name: str, number: Any) -> int:
 
 
 def autoreset_of(mode: Any) -> AutoresetMode:
-    """How the day after a finished day begins."""
+    """The autoreset mode: how the day after a finished day begins."""
     try:
         return AutoresetMode(mode)
     except ValueError:

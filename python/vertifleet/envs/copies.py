@@ -14,8 +14,8 @@ Playing = TypeVar("Playing", bound="Copied")
 class Copied:
     """An environment whose copies, deep or shallow, play on independently.
 
-    They share what never changes: copying a network means parsing its file's text again, which takes longer
-    than many decisions.
+    They share immutable members: copying a network means parsing its file's text again, which takes longer
+        than many decisions.
     """
 
     _never_changes: ClassVar[tuple[str, ...]]
@@ -27,7 +27,7 @@ class Copied:
     def __deepcopy__(self: Playing, memo: dict[int, Any]) -> Playing:
         members = vars(self)
         other = object.__new__(type(self))
-        # `deepcopy` takes what is in the memo for copied already.
+        # `deepcopy` does not copy objects that are in the memo.
         memo |= {id(members[name]): members[name] for name in self._never_changes if name in members}
         memo[id(self)] = other
         vars(other).update(copy.deepcopy(members, memo))

@@ -1,4 +1,4 @@
-"""Where the days of an environment come from."""
+"""The sources of an environment's days."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ NetworkChoice: TypeAlias = str | os.PathLike[str] | Network | Mapping[str, str]
 """A network, its name, the path of its file, or ``{"toml": text}`` with the text of its file."""
 
 NetworksChoice: TypeAlias = NetworkChoice | Iterable[NetworkChoice]
-"""A network, several of them, or the name of networks drawn for each day: "random", or
+"""A network, several of them, or the name of a source that draws a new network for each day: "random", or
 "random-places:N" for the paper's network with N vertiports at random places."""
 
 
 def warn_of_comparison(split: str | None) -> None:
-    """Says once, if these are comparison days, that nothing should be learned from them."""
+    """Warns once, if these are comparison days, that nothing should be learned from them."""
     if split == "comparison":
         _warn_once()
 

@@ -23,19 +23,19 @@ from vertifleet.envs.rendering import METADATA, RenderMode, mode_of, rendered
 
 
 class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
-    """An environment in which one aircraft after the other needs a choice of where it flies next.
+    """An environment in which one aircraft after the other needs a destination.
 
-    The action is the position of a vertiport; the aircraft's own vertiport means hold. An action that is not
-    feasible holds, and sets ``info["invalid_action"]``. The mask of feasible actions is given as
+    The action is the position of a vertiport; that of the aircraft's current vertiport means hold. An
+    infeasible action holds, and sets ``info["invalid_action"]``. The mask of feasible actions is available as
     ``action_masks()`` (bool), ``info["action_mask"]`` (int8) and ``observation["action_mask"]`` (float32).
-    What is seen is `observation`: "paper" (§IV.A of the paper), "full", "gcaps-x", "gcaps-full", a list of
-    parts, or an `OwnObservation`. The reward of an episode is the day's profit over its potential: paid at
-    the end (``reward="terminal"``), or each flight's share when it is decided (``"dense"``). A function as
-    `reward` is called with the `View` of the decision and its `Outcome`, and pays what it returns.
+    `observation` is "paper" (§IV.A of the paper), "full", "gcaps-x", "gcaps-full", a list of parts, or an
+    `OwnObservation`. The reward of an episode is the day's profit over its potential: paid at the end
+    (``reward="terminal"``), or each flight's share at its decision (``"dense"``). A function as `reward` is
+    called with the `View` of the decision and its `Outcome`, and returns the reward.
 
     `network` may be several networks, whose days come in turn, or "random" or "random-places:N", which draw a
-    network for each day. Days of smaller networks leave the last entries of the arrays 0, which
-    ``vertiport_mask`` and ``fleet_mask`` tell.
+    network for each day. Days of smaller networks leave the last entries of the arrays 0; ``vertiport_mask``
+    and ``fleet_mask`` mark the used ones.
 
     `reset` draws a day of the `split` from ``np_random``, or plays ``options={"scenario": scenario}`` or the
     day with the number ``options={"number": 7}``; the name of the day is ``info["day"]``, and its split is
@@ -91,7 +91,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
         return self._shown(row), info
 
     def step(self, action: np.int64 | int) -> tuple[Any, float, bool, bool, Info]:
-        """Carries the decision out and goes on to the next.
+        """Carries the decision out and advances to the next.
 
         Raises:
             Error: V451 for an action that is not a whole number, and if no day is in progress.
@@ -108,7 +108,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
         return self._shown(row), reward, over, False, info
 
     def render(self) -> Any:
-        """The fleet at the current decision, as `render_mode` has it: "rgb_array" is a map of 640 by 480
+        """The fleet at the current decision, in the format `render_mode`: "rgb_array" is a map of 640 by 480
         pixels, an array of bytes [480, 640, 3], and "ansi" a text. None without a `render_mode`.
 
         Raises:
@@ -121,7 +121,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
         return self._environment.mask()
 
     def close(self) -> None:
-        """Ends the use of the environment: no day can be begun or played any more."""
+        """Closes the environment: no day can be begun or played any more."""
         self._is_closed = True
 
     def _check_open(self) -> None:
@@ -130,7 +130,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
 
     @property
     def spec(self) -> EnvSpec | None:
-        """How the environment was made, as plain data: a `Network` stands there as the text of its file."""
+        """The arguments of the environment as plain data: a `Network` is the text of its file."""
         return self._spec
 
     @spec.setter
@@ -148,7 +148,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
 
     @property
     def view(self) -> View:
-        """What may be seen of the current decision.
+        """The view of the current decision.
 
         Raises:
             Error: V451 before the first day.

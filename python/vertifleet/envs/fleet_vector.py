@@ -35,12 +35,12 @@ RENDER_ONE = 'render a single environment: gymnasium.make("vertifleet/Fleet-v0",
 
 
 class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
-    """Like `FleetEnv`, with `num_envs` days side by side on `threads` threads (all cores by default).
+    """Like `FleetEnv`, with `num_envs` days in parallel on `threads` threads (all cores by default).
 
     With ``copy=False`` observations and masks share the memory that is filled in place, which is faster.
     Those of a step, or of a reset of all environments, then stay valid until the step after next, so that
-    those before and after a step can be used together; those of a reset of some environments until the next
-    reset of some. Environment i behaves like a `FleetEnv` whose first reset had seed s + i.
+    those before and after a step can be used together. Those of a reset of some environments stay valid until
+    the next such reset. Environment i behaves like a `FleetEnv` whose first reset had seed s + i.
     """
 
     def __init__(
@@ -164,7 +164,7 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         return [self._batch.scenario(at) for at in range(self.num_envs)]
 
     def view(self, at: int) -> View:
-        """What may be seen of the current decision of environment `at`.
+        """The view of the current decision of environment `at`.
 
         Raises:
             Error: V451 if there is no such environment, or before its first day.
@@ -179,7 +179,7 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
             raise Error("V451", "the environments are closed", "make new ones")
 
     def _own_rewards(self, before: list[View]) -> NDArray[np.float64]:
-        """What the caller's function pays for each decision; a step that begins a day pays nothing."""
+        """The caller's reward for each decision; 0 for a step that begins a day."""
         assert self._reward is not None, "there is a function"
         rewards = np.zeros(self.num_envs)
         for at, view in enumerate(before):
@@ -227,7 +227,7 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
             ended: Info = {"summary": self._batch.summary(at)}
             if begun[at]:
                 invalid = bool(info["invalid_action"][at])
-                # The current info belongs to the new day, in which there was no action yet.
+                # The current info belongs to the new day, which has had no action yet.
                 info["invalid_action"][at] = False
                 final_info = {"action_mask": self._final_mask[at].copy(), "invalid_action": invalid, **ended}
                 observation = self._observing.of_row(self._final[at].copy())

@@ -1,4 +1,4 @@
-"""What an environment shows: the parts of its observations, and their spaces."""
+"""The observations of an environment: their parts, and their spaces."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ PRESETS = ("paper", "full", "gcaps-x", "gcaps-full")
 
 @dataclass(frozen=True)
 class OwnObservation:
-    """An observation of the caller's own: a function from a `View` to an element of a space."""
+    """An observation of the caller: a function from a `View` to an element of a space."""
 
     function: Callable[[View], Any]
     space: spaces.Space[Any]
 
 
 ObservationChoice: TypeAlias = str | Iterable[str] | OwnObservation
-"""The name of an observation, the names of parts, or an observation of the caller's own."""
+"""The name of an observation, the names of parts, or an observation of the caller."""
 
 
 class Observing:
-    """The parts of an observation in the rows of numbers that the native side fills."""
+    """The parts of an observation within the rows of numbers that the native side fills."""
 
     def __init__(self, observation: ObservationChoice, days: Days) -> None:
         self.own: OwnObservation | None = None
@@ -49,7 +49,7 @@ class Observing:
         if not days.are_of_one_size and {"nodes", "aircraft"} & set(chosen):
             rule = "the paper's observation has the shape of one network, but these networks differ in size"
             raise Error("V451", rule, 'use observation="full"')
-        # The paper's arrays are one-dimensional, as they were from the first version on.
+        # The paper's arrays are one-dimensional, as in the first version.
         flat = observation == "paper"
         self._places: list[tuple[str, slice, tuple[int, ...] | None]] = []
         boxes: dict[str, spaces.Space[Any]] = {}

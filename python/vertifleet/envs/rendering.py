@@ -1,4 +1,4 @@
-"""How environments are rendered: a map of the fleet as pixels, or a table as text."""
+"""Renders environments: a map of the fleet as pixels, or a table as text."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from vertifleet._native import Environment
 RenderMode: TypeAlias = Literal["rgb_array", "ansi"]
 
 METADATA: dict[str, Any] = {"render_modes": ["rgb_array", "ansi"], "render_fps": 30}
-"""What an environment says about its rendering."""
+"""The metadata of an environment about its rendering."""
 
 
 def mode_of(render_mode: str | None) -> str | None:

@@ -1,7 +1,7 @@
 """The networks as policies of sb3-contrib's MaskablePPO.
 
-Only the network is trained: a features extractor runs all of it, and the layers that stable-baselines3 puts
-after an extractor only pick logits and value out of its output.
+Only the network is trained: a features extractor runs all of it, and the layers that stable-baselines3 adds
+after an extractor only select logits and value from its output.
 """
 
 from __future__ import annotations
@@ -38,10 +38,10 @@ NOT_TAKEN = (
 
 
 def _take_one_thread() -> None:
-    """Lets PyTorch work on one thread, unless OMP_NUM_THREADS says otherwise.
+    """Limits PyTorch to one thread, unless OMP_NUM_THREADS is set.
 
     The networks are small: more threads gain little on idle cores, and on busy ones each waits for the
-    others, which was seen to take a hundred times as long.
+        others, which can take a hundred times as long.
     """
     if "OMP_NUM_THREADS" not in os.environ:
         torch.set_num_threads(1)
@@ -64,8 +64,8 @@ class TwinExtractor(BaseFeaturesExtractor):
     def forward(self, observations: dict[str, Tensor]) -> Tensor:
         """Logits and value.
 
-        The observed mask is applied here, so that a call without a mask, such as plain `predict`
-        or `evaluate_policy`, decides as the program does. MaskablePPO asks the environment for the same mask.
+        The observed mask is applied here, so that a call without a mask argument, such as plain `predict` or
+        `evaluate_policy`, decides as the program does. MaskablePPO gets the same mask from the environment.
         """
         check_mask(observations["action_mask"])
         logits, values = self.twin(observations["nodes"], observations["aircraft"], observations["clock"])
@@ -90,12 +90,12 @@ class Value(nn.Module):
 
 
 class TwinPolicy(MaskableActorCriticPolicy):
-    """A network as the policy, including its first weights.
+    """A network as the policy, including its initial weights.
 
     The sizes of its layers are given as ``policy_kwargs={"features_extractor_kwargs": {"width": 64}}``.
 
     Raises:
-        Error: V451 if there is no such size, if other layers are asked for, or if the environment's
+        Error: V451 if there is no such size, if other layers are requested, or if the environment's
             observations are not those of ``vertifleet/Fleet-v0``.
     """
 

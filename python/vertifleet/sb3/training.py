@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 SHARED = ("n_steps", "batch_size", "n_epochs", "gamma", "gae_lambda", "ent_coef", "vf_coef", "max_grad_norm")
 """Settings that have the same name in MaskablePPO and keep the value that is given."""
 LEFT = np.linspace(1.0, 0.0, 101)
-"""The shares of the run that are left at which schedules are sampled."""
+"""The remaining shares of the run at which schedules are sampled."""
 
 
 def ppo_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
@@ -56,12 +56,12 @@ def export(
     *,
     network: str | os.PathLike[str] | Network | None = None,
 ) -> None:
-    """Writes the weights as a weight file, with which the program can decide.
+    """Writes the weights as a weight file, which the program can decide by.
 
     ``vertifleet compare --policies greedy,mine --model mine=PATH`` compares it with other policies. The file
     records how the weights were trained if the program's settings can express it. They cannot if rewards were
-    normalised, for example, if a rate fell in another way than linearly to 0, or if the model was loaded and
-    has not learned since.
+    normalised, for example, if a rate did not fall linearly to 0, or if the model was loaded and has not
+    learned since.
 
     Args:
         model: the learner, with a policy of this package.
@@ -120,7 +120,7 @@ def _settings_of(model: MaskablePPO, days: VecEnv) -> dict[str, Any] | None:
 
 
 def _learned_otherwise(model: MaskablePPO, days: VecEnv) -> bool:
-    """Whether the model learned from other days than these, or in a way that no setting expresses."""
+    """Whether the model learned from other days, or in a way that no setting expresses."""
     # stable-baselines3 drops the last observation when a model, loaded or not, gets another environment.
     other_days = model._last_obs is None
     normalised = unwrap_vec_normalize(days)

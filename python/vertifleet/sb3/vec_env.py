@@ -1,4 +1,4 @@
-"""Many days side by side as an environment of stable-baselines3, on the native batch of days."""
+"""Many days in parallel as an environment of stable-baselines3, on the native batch of days."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ class FleetVecEnv(VecEnv):
 
     Args:
         network: the network or its name.
-        num_envs: number of days side by side.
-        reward: "terminal", all of it at the end of the day, or "dense", each flight's share when decided.
+        num_envs: number of days in parallel.
+        reward: "terminal", all of it at the end of the day, or "dense", each flight's share at its decision.
         reward_scale: factor of the rewards that are learned from; logs show the reward itself.
         threads: number of threads that advance the days; all cores by default.
-        observation: what is shown, as in `FleetEnv`. `GcapsPolicy` and `MlpPolicy` read "paper".
-        split: whose days are played.
+        observation: the observation, as in `FleetEnv`. `GcapsPolicy` and `MlpPolicy` read "paper".
+        split: the purpose of the days.
     """
 
     def __init__(

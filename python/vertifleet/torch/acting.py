@@ -24,7 +24,7 @@ READ = ("nodes", "aircraft", "clock", "action_mask")
 WORTH = "priced_worth"
 """The entry that is added to the logits of `GcapsX`."""
 VERTIPORTS = "vertiport_mask"
-"""The entry that says which vertiports a day has, where the rest of the arrays is padding."""
+"""The entry that marks the vertiports of a day; the rest of the arrays is padding."""
 
 
 def masked(logits: Tensor, mask: Tensor) -> Tensor:
@@ -33,7 +33,7 @@ def masked(logits: Tensor, mask: Tensor) -> Tensor:
 
 
 def check_mask(mask: Tensor) -> None:
-    """Refuses a mask with other numbers than 0 and 1, as a wrapper makes it: all would seem feasible.
+    """Refuses a mask with other numbers than 0 and 1, which a wrapper may produce: all would seem feasible.
 
     Raises:
         Error: V451.
@@ -47,13 +47,14 @@ def check_mask(mask: Tensor) -> None:
 
 
 def scores(twin: Twin, observation: Mapping[str, Tensor]) -> Tensor:
-    """What a network chooses by, [B, N]: minus infinity for what it does not choose. Its softmax is a policy.
+    """The scores that a network chooses by, [B, N]: minus infinity for excluded choices. Their softmax is a
+    policy.
 
     For `GcapsX` this is the logit and the worth at the day's bid prices, of the choices of the shortlist; for
-    the others it is the masked logit. It has gradients, so it is also what to train by.
+    the others it is the masked logit. It has gradients, so losses can use it.
 
-    Where an observation has "vertiport_mask", as "gcaps-full" does, a network that fits any number of
-    vertiports does not see the padding of days that have fewer.
+    If an observation has "vertiport_mask", as "gcaps-full" does, a network that fits any number of vertiports
+    ignores the padding of smaller days.
 
     Args:
         twin: the network.
@@ -79,7 +80,7 @@ def scores(twin: Twin, observation: Mapping[str, Tensor]) -> Tensor:
 
 
 def _cut(name: str, entries: Tensor, count: int) -> Tensor:
-    """The entries of the first vertiports, which a day has; of pairs of them, if they are of edges."""
+    """The entries of the first vertiports, which belong to the day; for edges, those of their pairs."""
     if name.endswith("aircraft") or name == "clock":
         return entries
     return entries[:, :count, :count] if name in OBSERVED.values() else entries[:, :count]

@@ -1,7 +1,7 @@
 """The encoders besides the paper's: graph capsules on any graph, and self-attention.
 
-Self-attention knows no graph. They have the tensors of the program's `capsule_layers.rs`,
-`self_attention.rs` and `fleet.rs`.
+Self-attention uses no graph. They have the tensors of the program's `capsule_layers.rs`, `self_attention.rs`
+and `fleet.rs`.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class Hops(nn.Module):
 
 
 class CapsuleLayer(nn.Module):
-    """The capsules of one layer (Eq. 19), and what makes features of the capsules of the layer before."""
+    """The capsules of one layer (Eq. 19), and the map from those of the layer before to features."""
 
     def __init__(self, width: int, graph: Graph, *, is_first: bool) -> None:
         super().__init__()
@@ -61,7 +61,7 @@ class CapsuleLayer(nn.Module):
 class CapsuleEncoder(CapsuleLayer):
     """Graph capsules on any graph, with any number of moments, hops and layers.
 
-    The first layer's weights are the encoder's own, as in the paper's encoder.
+    The encoder holds the first layer's weights directly, as the paper's encoder does.
     """
 
     def __init__(self, features: int, width: int, graph: Graph) -> None:

@@ -32,13 +32,12 @@ class Gcaps(Twin):
         vertiports: N.
         width: h, the embedding length.
         heads: h_e, the number of attention heads; it divides the width.
-        graph: what the network has between the vertiports, a `Graph` or its settings by name; by default the
-            paper's.
+        graph: the graph of the vertiports, a `Graph` or its settings by name; by default the paper's.
     """
 
     kind = "gcaps"
     sees_the_full: ClassVar[bool] = False
-    """Whether the policy's observation may show the weights of edges."""
+    """Whether the policy's observation may contain the weights of edges."""
 
     def __init__(
         self,
@@ -105,7 +104,7 @@ class GcapsX(Gcaps):
 class GcapsFull(Gcaps):
     """The layers of :class:`Gcaps` on the observation "gcaps-full", which needs no bid prices.
 
-    Its weights fit any number of vertiports, and it is the only network that sees the weights of edges.
+    Its weights fit any number of vertiports, and it is the only network that reads the weights of edges.
     """
 
     kind = "gcaps-full"
@@ -139,7 +138,7 @@ class Encoder(nn.Module):
         self.feed_forward = Linear(2 * width, width)
 
     def forward(self, nodes: Tensor, edges: Tensor | None) -> Tensor:  # noqa: ARG002
-        """[B, N, F] -> [B, N, h]; on the complete graph there are no edges to see."""
+        """[B, N, F] -> [B, N, h]; the complete graph needs no edges."""
         f_0 = self.node(nodes)  # F_0i = δ_i W_0 + b_0
         f_1 = self.moment_1(f_0)  # Eq. 18 with p = 1
         f_2 = self.moment_2(f_0 * f_0)  # Eq. 18 with p = 2
@@ -208,9 +207,9 @@ class Decoder(nn.Module):
     def attend(self, q: Tensor, embeddings: Tensor) -> Tensor:
         """MHA(q, E) of Eq. 20 and 21: [B, h] from a query [B, h] and embeddings [B, N, h].
 
-        There is one query for all nodes, so keys and values of all nodes are not computed: a head's query is
-        brought to the embeddings' side, ``q · (E_i W_K) = (W_K q) · E_i``, and W_V is applied to what its
-        attention collects.
+        There is one query for all nodes, so keys and values of all nodes are not computed. Instead, a head's
+        query is transformed to the embeddings' side, ``q · (E_i W_K) = (W_K q) · E_i``, and W_V is applied to
+        the sum that its attention collects.
         """
         if not self.attention:
             mean: Tensor = self.output(self.value(embeddings.mean(dim=1)))

@@ -1,4 +1,4 @@
-"""How a network relates the vertiports to each other (§IV.A.1): settings, and the Laplacian that follows."""
+"""How a network relates the vertiports to each other (§IV.A.1): settings, and the Laplacian."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ Adjacency = Literal["complete", "similarity", "distance", "reachable", "profit"]
 LaplacianKind = Literal["plain", "normalised"]
 
 OBSERVED = {"distance": "distance_edges", "reachable": "adjacency", "profit": "profit_edges"}
-"""The parts of observations that show the weights of edges, by the adjacency that is made of them."""
+"""The parts of observations with the weights of edges, by the adjacency that uses them."""
 
 
 @dataclass(frozen=True)
 class Graph:
-    """What a network has between the vertiports; by default the paper's complete graph (Table 3).
+    """The graph between the vertiports of a network; by default the paper's complete graph (Table 3).
 
     Attributes:
-        encoder: "capsules" (Eq. 18 and 19), or "transformer", self-attention of all vertiports, which knows
-            no graph.
+        encoder: "capsules" (Eq. 18 and 19), or "transformer", self-attention of all vertiports, which uses no
+            graph.
         moments: P, the highest moment of the capsules.
         hops: K, the highest power of the Laplacian.
         layers: L_e, the number of layers of the encoder.
-        adjacency: what makes vertiports neighbours: "complete", every pair; "similarity", 1 / (1 + the
-            distance of their features); "distance", 1 / (1 + hours of flight); "reachable", what may be flown
-            now; "profit", the profit per hour of a flight now. The last three are seen by `GcapsFull` alone.
+        adjacency: the definition of neighbours: "complete", every pair; "similarity", 1 / (1 + the distance
+            of their features); "distance", 1 / (1 + hours of flight); "reachable", what may be flown now;
+            "profit", the profit per hour of a flight now. Only `GcapsFull` reads the last three.
         laplacian: "plain", (D - A) / N, or "normalised", I - D^-1 A.
         attention: whether the decoder attends to the vertiports (Eq. 20), or reads their mean.
     """
@@ -72,17 +72,17 @@ class Graph:
 
     @property
     def uses_paper_encoder(self) -> bool:
-        """Whether the encoder is the paper's; the decoder does not matter."""
+        """Whether the encoder is the paper's, regardless of the decoder."""
         return replace(self, attention=True).is_of_the_paper
 
     @property
     def edges(self) -> str | None:
-        """The part of an observation that shows the weights of the edges; None if there is none to see."""
+        """The part of an observation with the weights of the edges; None if there is none."""
         return OBSERVED.get(self.adjacency) if self.encoder == "capsules" else None
 
     @property
     def members(self) -> dict[str, Any]:
-        """The settings by their names, as they stand in the header of a weight file."""
+        """The settings by their names, as in the header of a weight file."""
         return asdict(self)
 
 
@@ -104,7 +104,7 @@ def graph_of(given: Graph | Mapping[str, Any] | None) -> Graph:
 
 
 def similarities(nodes: Tensor) -> Tensor:
-    """1 / (1 + |x_i - x_j|) of every pair of nodes, as the authors' code has it: [B, N, F] -> [B, N, N]."""
+    """1 / (1 + |x_i - x_j|) of every pair of nodes, as in the authors' code: [B, N, F] -> [B, N, N]."""
     differences = nodes.unsqueeze(2) - nodes.unsqueeze(1)
     distances: Tensor = torch.linalg.vector_norm(differences, dim=-1)
     return 1 / (1 + distances)

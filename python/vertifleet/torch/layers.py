@@ -1,6 +1,6 @@
-"""The layers of the networks, with the names and shapes of the weight files and the same first weights.
+"""The layers of the networks, with the names and shapes of the weight files and the same initial weights.
 
-A matrix is [inputs, outputs] and used as ``x W``. First weights are uniform with mean 0 and variance
+A matrix is [inputs, outputs] and used as ``x W``. Initial weights are uniform with mean 0 and variance
 ``gain² / inputs`` (He et al. 2015, LeCun et al. 1998), drawn with torch's generator.
 """
 

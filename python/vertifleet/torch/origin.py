@@ -1,6 +1,6 @@
 """The origin of weights for the header of a weight file: network, settings, seed and steps.
 
-Weights are saved even if their origin is not known: the header leaves open what the program cannot express.
+Weights can be saved even if their origin is unknown: the header leaves such members empty.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ NEVER = 1_000_000_000
 
 
 def checked_settings(settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Settings in Python's own types; those that are not given have the paper's values.
+    """Settings in Python's types; the default is the paper's value.
 
     Raises:
         Error: V451 if they are not a dict, V302 and V303 if a member is unknown or out of its bounds.
@@ -55,7 +55,7 @@ def seed_in_words(seed: Any) -> int | None:
 
 
 def whole(name: str, number: Any, most: int) -> int:
-    """A whole number converted to Python's own type."""
+    """A whole number converted to Python's type."""
     counts = isinstance(number, Real) and not isinstance(number, bool)
     if counts and 0 <= number <= most and int(number) == number:
         return int(number)

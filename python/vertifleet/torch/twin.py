@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 MOST = 4096
-"""Larger sizes can only come from a damaged file, and could ask for more memory than there is."""
+"""Larger sizes can only come from a damaged file, and could request more memory than there is."""
 
 
 class Twin(nn.Module, ABC):
@@ -28,15 +28,15 @@ class Twin(nn.Module, ABC):
         vertiports: N, the number of vertiports that the weights fit; None if they fit any number.
         node_features: F, number of features of a node.
         aircraft_features: G, number of features of the aircraft.
-        header: header of the weight file that the weights come from; None for fresh weights.
+        header: header of the weight file that the weights come from; None for initial weights.
     """
 
     kind: ClassVar[str]
     """The policy's name: "gcaps", "mlp", "gcaps-x", "gcaps-full" or "mlp-full"."""
     features: ClassVar[str] = ""
-    """What the names of the features that it reads begin with, in observations."""
+    """The prefix of the names of the features that it reads in observations."""
     edges: str | None = None
-    """The part of an observation that shows the weights of the edges; None if the network reads none."""
+    """The part of an observation with the weights of the edges; None if the network reads none."""
 
     def __init__(self, vertiports: int | None, node_features: int, aircraft_features: int) -> None:
         super().__init__()
@@ -73,7 +73,7 @@ class Twin(nn.Module, ABC):
     def _answers(
         self, nodes: Tensor, aircraft: Tensor, clock: Tensor, edges: Tensor | None
     ) -> tuple[Tensor, Tensor]:
-        """Logits and values from what `forward` has checked, with nodes as [B, N, F]."""
+        """Logits and values from arguments that `forward` has checked, with nodes as [B, N, F]."""
 
     @property
     @abstractmethod
@@ -90,12 +90,12 @@ class Twin(nn.Module, ABC):
 
     @property
     def policy(self) -> dict[str, Any]:
-        """The policy's kind and sizes, as they stand in the header of a weight file."""
+        """The policy's kind and sizes, as in the header of a weight file."""
         return {"kind": self.kind} | self.sizes
 
     @property
     def shape(self) -> dict[str, int | None]:
-        """The sizes of the features, as they stand in the header of a weight file."""
+        """The sizes of the features, as in the header of a weight file."""
         return {
             "vertiports": self.vertiports,
             "node_features": self.node_features,
@@ -139,7 +139,7 @@ FULL_FEATURES = 37, 11
 
 
 def check_size(name: str, size: int, most: int = MOST, least: int = 1) -> int:
-    """A size of Python or NumPy, converted to Python's own type; refuses sizes that no network has."""
+    """A size of Python or NumPy, converted to Python's type; refuses sizes that no network has."""
     try:
         number = -1 if isinstance(size, bool) else operator.index(size)
     except TypeError:
@@ -153,7 +153,7 @@ Kind = TypeVar("Kind", bound=Twin)
 
 
 def of_sizes(kind: type[Kind], vertiports: int, sizes: Mapping[str, Any]) -> Kind:
-    """The network for this many vertiports, with first weights; `sizes` are its arguments by name.
+    """The network for this many vertiports, with initial weights; `sizes` are its arguments by name.
 
     Raises:
         Error: V451 if it has no such size, or if a size is out of bounds.

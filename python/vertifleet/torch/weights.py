@@ -1,7 +1,7 @@
 """Weight files in both directions: the program reads files saved here, and files of the program load here.
 
-The program's own reader (:class:`vertifleet.Model`) reads, checks and writes the files: a file that loads
-here loads in the program, and a damaged file is refused with the same message.
+The program's reader (:class:`vertifleet.Model`) reads, checks and writes the files: a file that loads here
+loads in the program, and a damaged file is refused with the same message.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ OF_THE_PAPER = ("gcaps", "mlp")
 """The policies that learn by PPO, on features that have scales; the others learn by imitation."""
 
 DRAWN = re.compile(r"random|random-places:\d+")
-"""The names of networks drawn for each day."""
+"""The names of sources that draw a new network for each day."""
 
 
 def load(source: str | os.PathLike[str] | bytes) -> Twin:
-    """The network of a weight file; its ``header`` says where the weights come from.
+    """The network of a weight file; its ``header`` contains the origin of the weights.
 
     Args:
         source: the file's path, or its bytes.
@@ -62,17 +62,17 @@ def save(
     seed: int | None = None,
     steps: int | None = None,
 ) -> None:
-    """Writes a weight file, whole or not at all.
+    """Writes a weight file, completely or not at all.
 
     Arguments that are not given keep their values from the file that the weights were loaded from. Weights
-    that come from no file need `network` and `steps`; without `settings` or `seed`, the new file says that
-    these are not known.
+    that come from no file need `network` and `steps`; without `settings` or `seed`, the new file marks these
+    as unknown.
 
     Args:
         twin: the network of layers.
         path: path of the weight file.
         network: the network that the weights were trained on, its name or its path; for weights that fit any
-            number of vertiports also "random" or "random-places:N", for networks drawn for each day.
+            number of vertiports also "random" or "random-places:N", for a new network each day.
         settings: the settings of the training run, with the members of ``vertifleet.settings("paper")``; for
             policies that learn by imitation, with those in the header of the shipped weights of ``gcaps-x``.
         seed: seed of the training run.
@@ -96,7 +96,7 @@ def save_trained(
     seed: int | None,
     steps: int,
 ) -> None:
-    """Like :func:`save`, for weights trained from scratch: the header of an earlier file is dropped."""
+    """Like :func:`save`, for newly trained weights: the header of an earlier file is dropped."""
     _write(twin, path, _new_header(twin, _arguments_text(twin, network, settings, seed, steps)))
 
 
@@ -127,7 +127,7 @@ def _of(header: Mapping[str, Any]) -> Twin:
 
 
 def _world(twin: Twin, network: str | os.PathLike[str] | Network | None) -> Network | str | None:
-    """The network that weights were trained on, or the name of those drawn for each day."""
+    """The network that weights were trained on, or the name of the source of random ones."""
     if isinstance(network, str) and DRAWN.fullmatch(network) and twin.vertiports is None:
         return network
     return None if network is None else network_of(network)
@@ -168,7 +168,7 @@ def _all_settings(twin: Twin, settings: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _scales(twin: Twin, network: Network) -> dict[str, float] | None:
-    """The scales of the network's features, if the weights fit it; None for features that need no scales."""
+    """The scales of the network's features, if the weights fit it; None for features without scales."""
     if twin.vertiports is None:
         return None
     if len(network.vertiports) != twin.vertiports:

@@ -1,1 +1,1 @@
-"""The client for asyncio. The one without it is made of these files by python/tools/client_sync.py."""
+"""The client for asyncio. python/tools/client_sync.py writes the synchronous one from these files."""

@@ -1,4 +1,4 @@
-"""A live day: what is known of it, what happens on it, what is decided, and how it may go on."""
+"""A live day: its state, its events, its decisions and its outlook."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ from vertifleet.client.types import (
 
 
 class AsyncDay:
-    """A day of a service. `AsyncClient.make_day`, `AsyncClient.day` and `AsyncClient.days` give days.
+    """A day of a service. `AsyncClient.make_day`, `AsyncClient.day` and `AsyncClient.days` return days.
 
     Times of the day are texts as "07:10:00", which may pass "24:00:00", or seconds since midnight. A day with
-    a date also takes them in ISO 8601 with an offset ("2026-11-23T07:10:00-05:00"), and answers so where a
-    method is given ``times="iso"``.
+    a date also accepts them in ISO 8601 with an offset ("2026-11-23T07:10:00-05:00"), and returns them so
+    with ``times="iso"``.
 
     All methods raise `ServiceError` V602 if the day was deleted, and `NoAnswerError` if the service does not
     answer.
@@ -45,7 +45,7 @@ class AsyncDay:
     def __init__(self, connection: AsyncConnection, info: DayInfo) -> None:
         self._connection = connection
         self.info = info
-        """What the day is called, when it was made and so on, as it was last read."""
+        """The name of the day, the time of its creation and so on, as last read."""
 
     @property
     def id(self) -> str:
@@ -56,15 +56,15 @@ class AsyncDay:
         return f"{type(self).__name__}({self.id!r}, {self.info['name']!r})"
 
     async def refresh(self) -> DayInfo:
-        """Reads again what `info` has, and the number of the latest event (``seq``)."""
+        """Updates `info`, and returns it with the number of the latest event (``seq``)."""
         self.info = await self._connection.object(DayInfo, reading("days", self.id))
         return self.info
 
     async def state(self, seq: int | None = None, *, times: Times | None = None) -> DayState:
-        """What is known of the day: every aircraft, every vertiport, the account and the notices.
+        """The state of the day: every aircraft, every vertiport, the account and the notices.
 
         Args:
-            seq: the number of an event; the answer is what was known after this event, not what is known now.
+            seq: the number of an event; returns the state after it in place of the current one.
             times: how times are written.
 
         Raises:
@@ -77,7 +77,7 @@ class AsyncDay:
         """The passengers of a demand period who still want to fly, by pair.
 
         Args:
-            period: the beginning of the period, or a time within it; without it, the present one.
+            period: the beginning of the period, or a time within it; without it, the current one.
             times: how times are written.
 
         Raises:
@@ -87,7 +87,7 @@ class AsyncDay:
         return await self._connection.object(PeriodDemand, asked)
 
     async def ledger(self, *, times: Times | None = None) -> Ledger:
-        """What the day has earned and cost so far, flight by flight; amounts in dollars.
+        """The earnings and costs of the day so far, flight by flight; amounts in dollars.
 
         Args:
             times: how times are written.
@@ -95,16 +95,16 @@ class AsyncDay:
         return await self._connection.object(Ledger, reading("days", self.id, "ledger", times=times))
 
     async def scenario(self) -> Scenario:
-        """The scenario that the day began with: to be played with other policies, for example.
+        """The scenario at the beginning of the day, for example to play it with other policies.
 
         Raises:
-            Error: with the code of what this version of the package does not know in it.
+            Error: if this version of the package does not support a part of it.
         """
         answer = await self._connection.answer(reading("days", self.id, "scenario"))
         return Scenario.from_json(answer.text, self.id)
 
     async def trace_csv(self) -> str:
-        """The decisions so far as a trace, which is the text of a CSV file."""
+        """The decisions so far as a trace: the text of a CSV file."""
         answer = await self._connection.answer(reading("days", self.id, "trace.csv"))
         return answer.text
 
@@ -116,7 +116,7 @@ class AsyncDay:
         Args:
             after: only events after the one with this number.
             times: how times are written.
-            page_size: how many events are asked for at once, at most 10,000.
+            page_size: number of events in a request, at most 10,000.
 
         Raises:
             ServiceError: V602 if the day has no event with the number ``after``.
@@ -132,21 +132,20 @@ class AsyncDay:
     async def report(
         self, *events: Event, if_match: int | None = None, idempotency_key: str | None = None
     ) -> Taken:
-        """Reports what happened. Several events are taken all or none. They are on the disk afterwards.
+        """Reports events. Several are applied together or not at all. They are on the disk afterwards.
 
-        ``notices`` of the answer has, for each event, what people should look at.
+        ``notices`` of the answer has, for each event, the notices for people.
 
         Args:
-            events: one event or more, at most 1,000, for example ``{"type": "departed", "aircraft": "A01",
+            events: one or more events, at most 1,000, for example ``{"type": "departed", "aircraft": "A01",
                 "time": "06:02:00"}``; `vertifleet.client.types.Event` has all kinds.
-            if_match: the number of the latest event that you know of. If there is a later one, nothing is
-                taken.
+            if_match: the expected number of the latest event. If there is a later one, no event is applied.
             idempotency_key: a key of your own, at most 128 characters that no other request to the service
                 has. Sent again with the same key, the same events are taken once.
 
         Raises:
-            ServiceError: V601 if an event is not understood, V603 for an unknown aircraft or vertiport, V604
-                if it contradicts what has happened, V605 if the day has gone on, V608 if it is archived.
+            ServiceError: V601 if an event is invalid, V603 for an unknown aircraft or vertiport, V604 if it
+                contradicts earlier events, V605 if the day has changed, V608 if it is archived.
         """
         body = events[0] if len(events) == 1 else list(events)
         path = ("days", self.id, "events")
@@ -156,17 +155,18 @@ class AsyncDay:
     async def stream(
         self, after: int | None = None, *, times: Times | None = None
     ) -> AsyncGenerator[TakenEvent, None]:
-        """All events, and then those to come, as they come. It ends only with an error.
+        """All events, and then later ones as they arrive. It ends only with an error.
 
-        After a lost connection it continues where it was, so that every event comes once. Nothing is
-        lost either if events come faster than they are read.
+        After a lost connection it reconnects and continues, so that every event arrives once. No event is
+        lost if events arrive faster than they are read.
 
         Args:
-            after: only events after the one with this number; those to come are after ``refresh()["seq"]``.
+            after: only events after the one with this number; ``refresh()["seq"]`` leaves out all earlier
+                ones.
             times: how times are written in the events.
 
         Raises:
-            ServiceError: V602 if the day has no such event, and V631 if it was put back from a copy while the
+            ServiceError: V602 if the day has no such event, and V631 if it was restored from a copy while the
                 stream was read: then read its state again. That fails too if the day has been deleted.
             NoAnswerError: if the service does not come back.
         """
@@ -180,7 +180,8 @@ class AsyncDay:
                 async with aclosing(self._connection.messages(asked)) as messages:
                     async for message in messages:
                         pauses = self._connection.pauses()
-                        # Other kinds are keep-alives, and `behind`: the missed events follow.
+                        # Other kinds are comments, and `behind`, after which the missed events
+                        # follow.
                         if message.kind == "message":
                             event: TakenEvent = json.loads(message.text)
                             last = event["mark"]
@@ -200,16 +201,16 @@ class AsyncDay:
         deadline_ms: int | None = None,
         times: Times | None = None,
     ) -> Proposal:
-        """Where a policy would send an aircraft that is ready, and what every vertiport would bring.
+        """Where a policy would send a ready aircraft, and the result of flying to every vertiport.
 
         Nothing changes.
 
         Args:
             aircraft: the id of the aircraft.
-            policy: the policy that is asked; without it, the day's.
+            policy: the policy; without it, the day's.
             time: the time of the decision; without it, or before what has happened, now.
-            deadline_ms: milliseconds within which an answer is needed. If the policy is not ready then, a
-                faster one answers, and ``too_late`` names the one that was asked.
+            deadline_ms: time limit of the answer, milliseconds. If the policy is not ready then, a faster one
+                answers, and ``too_late`` names the requested one.
             times: how times are written.
 
         Raises:
@@ -235,20 +236,20 @@ class AsyncDay:
 
         Args:
             aircraft: the id of the aircraft, which must be ready.
-            to: the vertiport that a person chooses; the aircraft's own means hold.
+            to: the vertiport that a person chooses; the one where the aircraft stands means hold.
             reason: why.
             policy: the policy that chooses; without it, the day's.
             time: the time of the decision; without it, or before what has happened, now.
-            deadline_ms: milliseconds within which the policy must answer; if it does not, a faster one
+            deadline_ms: time limit of the policy, milliseconds. If it is not ready then, a faster one
                 decides.
-            if_match: the number of the latest event that you know of, for example ``seq`` of a proposal. If
-                there is a later one, nothing is decided.
+            if_match: the expected number of the latest event, for example ``seq`` of a proposal. If there is
+                a later one, no decision is taken.
             idempotency_key: a key of your own, at most 128 characters that no other request to the service
                 has. Sent again with the same key, the same decision is taken once.
 
         Raises:
             ServiceError: V603 for an unknown aircraft or vertiport, V604 if the decision breaks a rule, V605
-                if the day has gone on, V608 if it is archived, V602 for an unknown policy.
+                if the day has changed, V608 if it is archived, V602 for an unknown policy.
         """
         chosen = given({"aircraft": aircraft, "to": to, "reason": reason})
         how = given({"policy": policy, "time": time, "deadline_ms": deadline_ms})
@@ -259,12 +260,12 @@ class AsyncDay:
     async def outlook(
         self, policy: str | None = None, seq: int | None = None, *, times: Times | None = None
     ) -> Outlook:
-        """How the day is expected to go on, flight by flight, if a policy takes every decision from now on.
+        """The expected rest of the day, flight by flight, if a policy takes every decision from now on.
 
         Args:
             policy: the policy; without it, the day's.
-            seq: the number of an event; the answer is what was expected after this event, not now.
-                0 is the morning.
+            seq: the number of an event; returns the outlook after it in place of the current one. 0 is the
+                morning.
             times: how times are written.
 
         Raises:
@@ -281,26 +282,26 @@ class AsyncDay:
         aircraft: Sequence[MoreAircraft] = (),
         times: Times | None = None,
     ) -> Comparison:
-        """Compares the outlook with what it would be if things were otherwise. Nothing changes.
+        """Compares the outlook with that of a changed day. Nothing changes.
 
         Args:
-            events: events that might happen now, in their order.
+            events: events that might happen now, in order.
             policy: the policy that would decide; without it, the day's.
-            stands: stands that vertiports would have had since the morning, by their ids: chargers where they
-                are counted apart.
-            aircraft: aircraft that the fleet would have had since the morning, for example ``{"id": "B01",
-                "at": "V1"}``.
+            stands: numbers of stands of vertiports from the morning on, by their ids: of chargers if they are
+                counted separately.
+            aircraft: additional aircraft of the fleet from the morning on, for example ``{"id": "B01", "at":
+                "V1"}``.
             times: how times are written.
 
         Raises:
-            ServiceError: V603 and V604 as for `report`, V617 if what has happened could not have happened.
+            ServiceError: V603 and V604 as for `report`, V617 if an earlier event would have been impossible.
         """
         members = {"events": events, "aircraft": aircraft, "policy": policy, "stands": stands}
         asked = asking("days", self.id, "what-if", body=given(members), times=times)
         return await self._connection.object(Comparison, asked)
 
     async def archive(self, *, if_match: int | None = None) -> None:
-        """Closes the day to writes. It can still be read, and be opened again.
+        """Closes the day to writes. It can still be read, and reopened.
 
         Args:
             if_match: the number of the latest event that you know of. If there is a later one, nothing
@@ -312,7 +313,7 @@ class AsyncDay:
         await self._connection.answer(changing("POST", "days", self.id, "archive", if_match=if_match))
 
     async def unarchive(self, *, if_match: int | None = None) -> None:
-        """Opens the day again after it was archived.
+        """Reopens the day after it was archived.
 
         Args:
             if_match: the number of the latest event that you know of. If there is a later one, nothing

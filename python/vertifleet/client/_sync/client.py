@@ -1,5 +1,5 @@
 # Written from ../_async/client.py by python/tools/client_sync.py: do not edit.
-"""A dispatch service, as a client sees it: its days, its networks, its policies and its studies."""
+"""The client of a dispatch service: its days, its networks, its policies and its studies."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ from vertifleet.client.types import (
 
 
 class Client:
-    """A client of a dispatch service, which ``vertifleet serve`` runs.
+    """A client of a dispatch service that ``vertifleet serve`` runs.
 
-    Every request is sent again, after growing pauses, if the connection is lost, if the service does not
-    answer in time, or if it says that it cannot answer now. Every write carries an ``Idempotency-Key``, so
-    that it happens once, however often it was sent.
+    The client repeats a request, after growing pauses, if the connection is lost, if the service does not
+    answer in time, or if it is temporarily unavailable. Every write carries an ``Idempotency-Key``, so that
+    it happens once even if it is sent several times.
 
-    Use ``with``, or close it in the end. It may be used by several tasks or threads at once, and keeps
-    their connections open for the next request.
+    Use ``with``, or close it at the end. Several tasks or threads may share it; it keeps their
+    connections open for the next request.
     """
 
     def __init__(
@@ -57,22 +57,23 @@ class Client:
         """A client of the service at an address. Nothing is sent yet.
 
         Args:
-            url: the address of the service, as it says itself when it starts, or that of the proxy before it.
-            token: the token, which begins with ``vf_``. Without it, the environment variable
-                ``VERTIFLEET_TOKEN`` has it, as for ``vertifleet operate``. A service that has no tokens yet
-                needs none.
-            timeout: seconds within which an answer must come, or go on coming. The service itself gives a
-                request up after 30 s.
-            retries: how often a request is sent again: the pauses before 5 times are about three seconds in
-                all. Streams come back as often after each loss.
-            verify: the path of a PEM file with the certificates that are trusted, in place of those of the
-                Python package certifi, or a context of your own, for example with a certificate of the
-                client. False trusts every server, and so protects against none.
-            transport: a transport of httpx in place of its usual one: for tests, for proxies that need more
-                than environment variables say, or for Unix sockets.
+            url: the address of the service, which it prints when it starts, or that of the proxy in front of
+                it.
+            token: the token, which begins with ``vf_``. The default is the environment variable
+                ``VERTIFLEET_TOKEN``, as for ``vertifleet operate``. A service that has no tokens yet needs
+                none.
+            timeout: time limit for the answer and for each pause in it, seconds. The service gives a request
+                up after 30 s.
+            retries: how often a request is repeated: with 5, the pauses are about three seconds in all.
+                Streams reconnect as often after each loss.
+            verify: the path of a PEM file with trusted certificates, in place of those of the Python package
+                certifi; or an SSL context, for example with a client certificate. False trusts every server,
+                and protects against none.
+            transport: a transport of httpx in place of its default: for tests, for proxies that need more
+                than environment variables, or for Unix sockets.
 
         Raises:
-            Error: V451 if the address is none, V624 if the certificates cannot be used.
+            Error: V451 if the address is invalid, V624 if the certificates cannot be used.
         """
         self._connection = Connection(url, token, timeout, retries, verify, transport)
 
@@ -110,29 +111,29 @@ class Client:
         time_zone: str | None = None,
         idempotency_key: str | None = None,
     ) -> Day:
-        """Makes a day, from a network or from a scenario. It begins as it is expected to be.
+        """Makes a day, from a network or from a scenario. It begins in its expected state.
 
         Args:
             network: the name of a network, for example "paper".
-            seed: the seed that forecast and places of aircraft are drawn with, where they are not given; 1
-                without it.
-            scenario: a whole day, in place of network and seed: a `vertifleet.Scenario`, or what a scenario
-                file has.
-            policy: the policy that decides when none is asked for; "gcaps-x" without it.
-            forecast: who is expected to fly, in place of what is drawn, for example ``{"period": "07:00:00",
+            seed: the seed that draws the forecast and the places of aircraft, unless they are given; 1 by
+                default.
+            scenario: a whole day, in place of network and seed: a `vertifleet.Scenario`, or the content of a
+                scenario file.
+            policy: the default policy of its decisions; "gcaps-x" without it.
+            forecast: the expected passengers, in place of drawn ones, for example ``{"period": "07:00:00",
                 "from": "V1", "to": "V2", "passengers": 14}``. A pair without a row has no passengers.
-            aircraft: where aircraft stand in the morning: ids of vertiports by ids of aircraft. The others
-                stand where the network or the scenario has them.
-            name: what people call the day, at most 80 characters.
+            aircraft: the places of aircraft in the morning: ids of vertiports by ids of aircraft. The others
+                stand where the network or the scenario places them.
+            name: the display name of the day, at most 80 characters.
             date: its date, for example "2026-11-23". Times may then be in ISO 8601.
             time_zone: the time zone of its clock by its name in the IANA database; without it, that of the
                 network.
-            idempotency_key: a key of your own, for a day that must be made only once even if this process
-                ends before the answer comes: at most 128 characters that no other request to the service has.
+            idempotency_key: a unique key of your choice, at most 128 characters, for a day that must be made
+                only once even if this process ends before the answer arrives.
 
         Raises:
-            ServiceError: V601 if the day is not described well, V602 for an unknown network or policy, V603
-                for an unknown aircraft or vertiport; otherwise with the code of what is wrong with the
+            ServiceError: V601 if the description of the day is invalid, V602 for an unknown network or
+                policy, V603 for an unknown aircraft or vertiport; otherwise with the code of the error in the
                 scenario or the seed.
         """
         origin = json.loads(scenario.to_json()) if isinstance(scenario, Scenario) else scenario
@@ -165,7 +166,7 @@ class Client:
 
         Args:
             after: the id of a day; only days that were made after it are listed.
-            page_size: how many days are asked for at once, at most 1,000.
+            page_size: number of days in a request, at most 1,000.
             progress: whether the ``info`` of each day that is not archived has its ``progress``: the clock,
                 the profit so far, how many aircraft wait for a decision, and whether the day is over.
         """
@@ -191,9 +192,9 @@ class Client:
         return self._connection.object(NetworkInfo, reading("networks", network))
 
     def put_network(self, network: Network) -> NetworkInfo:
-        """Keeps a network under its name, in the place of one that was uploaded before.
+        """Stores a network under its name, and replaces one that was uploaded before.
 
-        Days that were made stay as they are.
+        Existing days keep their network.
 
         Raises:
             ServiceError: V601 if a network of the program has this name, V612 if there are too many.
@@ -202,19 +203,19 @@ class Client:
         return self._connection.object(NetworkInfo, keeping("networks", network.name, body=body))
 
     def validate_network(self, network: str | Network) -> NetworkInfo:
-        """What a network has in it, and what is hardly meant in it (``warnings``). It is not kept.
+        """The contents of a network, with ``warnings`` about unlikely settings. It is not stored.
 
         Args:
             network: the text of a network file, or a network.
 
         Raises:
-            ServiceError: with the code of what is wrong with it.
+            ServiceError: with the code of its error.
         """
         body = {"toml": network.toml if isinstance(network, Network) else network}
         return self._connection.object(NetworkInfo, asking("networks", "validate", body=body))
 
     def delete_network(self, network: str) -> None:
-        """Removes a network that was uploaded. Days that were made from it stay as they are.
+        """Removes a network that was uploaded. Existing days keep their network.
 
         Raises:
             ServiceError: V602 if none of this name was uploaded.
@@ -226,7 +227,7 @@ class Client:
         return (self._connection.object(PolicyList, reading("policies")))["policies"]
 
     def policy(self, policy: str) -> PolicyInfo:
-        """What is known of the policy with this name.
+        """Describes the policy with this name.
 
         Raises:
             ServiceError: V602 if there is none.
@@ -234,24 +235,24 @@ class Client:
         return self._connection.object(PolicyInfo, reading("policies", policy))
 
     def put_policy(self, policy: str, weights: Model | bytes) -> PolicyInfo:
-        """Keeps weights as a policy. Its name means these weights for good.
+        """Stores weights as a policy. Its name means these weights permanently.
 
         Args:
-            policy: a name of your own: 1 to 40 letters a-z, digits, dots, dashes and underscores.
+            policy: a new name: 1 to 40 letters a-z, digits, dots, dashes and underscores.
             weights: the weights, or the bytes of a weight file.
 
         Raises:
-            ServiceError: V601 if the name means something else already, V612 if there are too many policies;
-                otherwise with the code of what is wrong with the weights.
+            ServiceError: V601 if the name is taken, V612 if there are too many policies; otherwise with the
+                code of the error in the weights.
         """
         asked = keeping("policies", policy, body=bytes_of(weights))
         return self._connection.object(PolicyInfo, asked)
 
     def validate_policy(self, weights: Model | bytes) -> WeightsInfo:
-        """What the service would know of these weights. They are not kept.
+        """Describes weights without storing them.
 
         Raises:
-            ServiceError: with the code of what is wrong with the weights.
+            ServiceError: with the code of the error in the weights.
         """
         asked = asking("policies", "validate", body=bytes_of(weights))
         return self._connection.object(WeightsInfo, asked)
@@ -275,24 +276,24 @@ class Client:
         bounds: bool | None = None,
         idempotency_key: str | None = None,
     ) -> StudyInfo:
-        """Lets policies play many days of a network in the background, as ``vertifleet compare`` does.
+        """Plays many days of a network with policies in the background, as ``vertifleet compare`` does.
 
-        Ask for it with `study` until its ``state`` is "finished" or "failed". The service keeps it until it
+        Poll it with `study` until its ``state`` is "finished" or "failed". The service keeps it until it
         stops.
 
         Args:
-            network: the name of a network, or a network of your own, which is not kept.
-            policies: names of policies, at most 10. The others are measured against the first.
-            days: how many days are played, at most 1,000.
+            network: the name of a network, or a `Network`, which is not stored.
+            policies: names of policies, at most 10. The others are compared with the first.
+            days: number of days, at most 1,000.
             seed: the seed of the first day; 1 without it.
-            split: whose days are played: "comparison", or "validation".
-            bounds: whether every day gets an upper bound.
-            idempotency_key: a key of your own, for a study that must be made only once even if this process
-                ends before the answer comes.
+            split: the purpose of the days: "comparison", or "validation".
+            bounds: whether to prove an upper bound for every day.
+            idempotency_key: a unique key of your choice, for a study that must be made only once even if this
+                process ends before the answer arrives.
 
         Raises:
             ServiceError: V602 for an unknown network or policy, V612 if it is too large or too many wait;
-                otherwise with the code of what is wrong.
+                otherwise with the code of the error.
         """
         members = {
             "toml": network.toml if isinstance(network, Network) else None,
@@ -311,7 +312,7 @@ class Client:
         return (self._connection.object(StudyList, reading("studies")))["studies"]
 
     def study(self, study: str) -> StudyInfo:
-        """The study with this id: how far it is, and its ``result`` once it has finished.
+        """The study with this id: its progress, and its ``result`` once it has finished.
 
         Raises:
             ServiceError: V602 if there is none.
@@ -319,7 +320,7 @@ class Client:
         return self._connection.object(StudyInfo, reading("studies", study))
 
     def study_report(self, study: str) -> str:
-        """The result of a study as a page in HTML, which opens without the service too.
+        """The result of a study as a page in HTML, which also opens without the service.
 
         Raises:
             ServiceError: V602 if there is no such study, or if it has not finished.
@@ -335,7 +336,7 @@ class Client:
         return self._connection.object(StudyReplay, reading("studies", study, "replay"))
 
     def delete_study(self, study: str) -> None:
-        """Ends a study if it plays or waits, and forgets it.
+        """Ends a study if it plays or waits, and removes it.
 
         Raises:
             ServiceError: V602 if there is none.
@@ -343,19 +344,19 @@ class Client:
         self._connection.remove("studies", study)
 
     def info(self) -> ServiceInfo:
-        """What the service is, and what the token of this client permits."""
+        """The properties of the service, and the rights of this client's token."""
         return self._connection.object(ServiceInfo, Request("GET", "/v1"))
 
     def is_running(self) -> bool:
-        """Whether the service runs. This is asked once, and needs no token."""
+        """Whether the service runs. The request is sent once, and needs no token."""
         return self._is_well("/healthz")
 
     def is_ready(self) -> bool:
-        """Whether the service can answer: whether its store does. This is asked once, and needs no token."""
+        """Whether the store of the service accepts writes. The request is sent once, and needs no token."""
         return self._is_well("/readyz")
 
     def _is_well(self, path: str) -> bool:
-        """Whether a sign of life comes."""
+        """Whether a health check succeeds."""
         try:
             self._connection.answer_at_once(Request("GET", path))
         except ServiceError as error:
@@ -365,11 +366,11 @@ class Client:
         return True
 
     def metrics(self) -> str:
-        """What the service measures about itself, in the text format of Prometheus."""
+        """The metrics of the service, in the text format of Prometheus."""
         return (self._connection.answer(Request("GET", "/metrics"))).text
 
     def description(self) -> Mapping[str, object]:
-        """The description of the API that the service has (OpenAPI 3.1)."""
+        """The service's description of its API (OpenAPI 3.1)."""
         return self._connection.object(dict[str, object], Request("GET", "/openapi.json"))
 
 

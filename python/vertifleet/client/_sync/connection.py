@@ -1,5 +1,5 @@
 # Written from ../_async/connection.py by python/tools/client_sync.py: do not edit.
-"""The connection to a service: requests are sent until they are answered, and answers are read."""
+"""The connection to a service: sends requests until they are answered, and reads the answers."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from vertifleet.client._requests import Request, changing, checked_url, pauses, 
 Answer = TypeVar("Answer", bound=Mapping[str, object])
 
 CONNECT_S = 5.0
-"""A connection must be made within this time."""
+"""Time limit for a new connection."""
 
 SILENCE_S = 15.0
-"""The service sends a sign of life every 2 s on a stream: one that is silent for this long is lost."""
+"""A stream that is silent for this long is lost: the service sends a comment on it every 2 s."""
 
 
 class Connection:
-    """A connection to a service, which is made when it is first needed, and again when it was lost."""
+    """A connection to a service, which is opened at its first use, and again after a loss."""
 
     def __init__(
         self,
@@ -56,7 +56,7 @@ class Connection:
         return pauses(self._retries)
 
     def object(self, kind: type[Answer], request: Request) -> Answer:
-        """The object that answers a request, as `answer` has it."""
+        """The object in the answer to a request."""
         answer = self.answer(request)
         try:
             found = answer.json()
@@ -67,10 +67,10 @@ class Connection:
         return cast(Answer, found)
 
     def answer(self, request: Request) -> httpx.Response:
-        """The answer to a request, which is sent again while the service cannot answer it.
+        """The answer to a request, which is repeated while the service cannot answer it.
 
         Raises:
-            ServiceError: if it is answered by an error, or not at all.
+            ServiceError: if the answer is an error, or if there is none.
         """
         pauses = self.pauses()
         tries = 0
@@ -86,15 +86,15 @@ class Connection:
                 clock.sleep(pause_s)
 
     def remove(self, *path: str, if_match: int | None = None) -> None:
-        """Removes what a path names.
+        """Removes the object at a path.
 
         Raises:
-            ServiceError: if it cannot be removed, or is not there when it is first asked to be.
+            ServiceError: if it cannot be removed, or does not exist at the first try.
         """
         try:
             self.answer(changing("DELETE", *path, if_match=if_match))
         except ServiceError as error:
-            # A sending whose answer did not come may have removed it.
+            # An earlier try whose answer was lost may have removed it.
             if error.code != "V602" or error.tries == 1:
                 raise
 
@@ -102,7 +102,7 @@ class Connection:
         """The answer to a request, which is sent once.
 
         Raises:
-            ServiceError: if it is answered by an error, or not at all.
+            ServiceError: if the answer is an error, or if there is none.
         """
         try:
             answer = self._http.send(self._as_http(request))
@@ -137,7 +137,7 @@ class Connection:
         raise NoAnswerError("V613", f"{self.url}: the stream has ended")
 
     def _as_http(self, request: Request, timeout: httpx.Timeout | None = None) -> httpx.Request:
-        """A request as the HTTP library has it."""
+        """A request in the form of the HTTP library."""
         return self._http.build_request(
             request.method,
             request.path,
