@@ -1,15 +1,14 @@
-"""Learns `gcaps-full` in PyTorch, on a GPU where there is one, from the samples of a run by imitation.
+"""Learns `gcaps-full` in PyTorch, on a GPU if there is one, from the samples of a run by imitation.
 
-`vertifleet train --policy gcaps-full --out runs` plays days, rolls their decisions out, and keeps all of its
-samples in its checkpoint. This script makes passes over them with a network of any size and graph, by the
-loss and in the steps of the program, and writes weights that the program decides with. It needs PyTorch:
+`vertifleet train --policy gcaps-full --out runs` plays days, rolls their decisions out, and stores all
+samples in its checkpoint. This script makes passes over them with a network of any size and graph, with the
+loss and the steps of the program. It writes weights that the program decides by. It needs PyTorch:
 
     python imitation.py runs/gcaps-full-checkpoint.safetensors --set width=128 --out mine.safetensors
     vertifleet evaluate --policies gcaps-full --suite paper-100 --model gcaps-full=mine.safetensors
 
 A graph whose edges are observed (`--set adjacency=profit`) needs samples of a run with the same adjacency.
-After every pass the weights are written, and next to them the state from which the same call with
-`--resume` continues.
+After every pass it writes the weights, and next to them a checkpoint for the same call with `--resume`.
 """
 
 from __future__ import annotations
@@ -28,15 +27,15 @@ from vertifleet import Error
 from vertifleet.torch import GcapsFull, Graph, save, scores
 
 LOGITS_A_UNIT = 20.0
-"""The values of roll-outs are counted in typical full flights; one of these is this many logits."""
+"""The values of roll-outs are counted in typical full flights; one of these is worth this many logits."""
 SEEING_THE_SAME = ("gcaps-full", "mlp-full")
-"""The policies whose samples show what `gcaps-full` sees."""
+"""The policies whose samples contain the observation of `gcaps-full`."""
 MOST_NORM = 0.5
 """The gradient of a step is cut to this norm."""
 
 
 class Samples:
-    """The samples of days with one number of vertiports: what is seen, and what choices are worth."""
+    """The samples of days with one number of vertiports: observations, and values of choices."""
 
     def __init__(self, file: Any, vertiports: int, twin: GcapsFull, device: str) -> None:
         def part(name: str, *shape: int) -> Tensor:
@@ -50,7 +49,7 @@ class Samples:
         )
         mask = (nodes[..., 0] == 1).float()
         self.seen = {"full_nodes": nodes, "full_aircraft": aircraft, "action_mask": mask}
-        # The clock is seen by the value alone, which is not learned.
+        # Only the value reads the clock, and it is not learned.
         self.seen["clock"] = torch.zeros_like(aircraft[:, 0])
         if twin.edges:
             self.seen[twin.edges] = part("edges", vertiports, vertiports)
@@ -63,7 +62,7 @@ def loss_of(found: Tensor, values: Tensor, entropy_weight: float) -> Tensor:
     """-sum of p A - entropy_weight H(p) of every decision: [B] from scores and values by roll-outs [B, N].
 
     p is the softmax of the scores. Noise in the values A does not change the mean of this loss, and the loss
-    weighs a decision by what is at stake in it.
+    weights a decision by the amount at stake in it.
     """
     log_p = found.log_softmax(-1)
     p = log_p.exp()
@@ -97,9 +96,9 @@ def learn(
 ) -> tuple[float, float]:
     """Makes one pass.
 
-    Returns agreement and lift as the program's learning curve has them: the share of decisions for which the
-    best choice is that of the roll-outs, and by how much the choices are better than those at the prices, in
-    typical full flights. Each decision is measured before the step that learns from it.
+    Returns agreement and lift as in the program's learning curve: the share of decisions for which the best
+    choice is that of the roll-outs, and the advantage of the choices over those at the prices, in typical
+    full flights. Each decision is measured before the step that learns from it.
     """
     steps, decisions = steps_of(samples, args, number), sum(len(one) for one in samples.values())
     device = next(twin.parameters()).device
@@ -127,7 +126,7 @@ def learn(
 
 
 def network_of(changes: list[str]) -> GcapsFull:
-    """The network with some of its settings changed, as `vertifleet train --set` changes them."""
+    """The network with some of its settings changed, as with `vertifleet train --set`."""
     settings: dict[str, Any] = {}
     for change in changes:
         name, _, value = change.partition("=")
@@ -137,7 +136,7 @@ def network_of(changes: list[str]) -> GcapsFull:
 
 
 def write_whole(state: dict[str, Any], path: Path) -> None:
-    """Writes a file whole or not at all."""
+    """Writes a file completely or not at all."""
     unfinished = path.with_name(path.name + ".part")
     torch.save(state, unfinished)
     unfinished.replace(path)

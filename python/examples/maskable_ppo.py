@@ -1,9 +1,8 @@
 """Trains the paper's network with MaskablePPO and the paper's settings (Table 2), and saves a weight file.
 
-The program can then compare it with other policies on days that it has not seen; the last line of the output
-says how. Ctrl-C ends the training and saves what was learned so far. The learner itself, 12 MB, is saved
-after every roll-out, in a folder next to the weight file: `MaskablePPO.load(path, env=days)` continues from
-there.
+The program can then compare it with other policies on unseen days; the last line of the output is the
+command. Ctrl-C ends the training and saves the current weights. The learner, 12 MB, is saved after every
+roll-out, in a folder next to the weight file: `MaskablePPO.load(path, env=days)` continues from there.
 
     python examples/maskable_ppo.py --steps 20000 --seed 1 --out mine.safetensors
 """
@@ -35,7 +34,7 @@ def file_to_write(given: str) -> Path:
 
 
 def main() -> None:
-    """Trains, saves, and prints what to do next."""
+    """Trains, saves, and prints the next command."""
     settings = vertifleet.settings("paper")
     parser = argparse.ArgumentParser(description="Trains the paper's network with MaskablePPO.")
     parser.add_argument("--steps", type=int, default=settings["total_steps"], help="decisions to learn from")

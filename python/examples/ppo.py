@@ -1,9 +1,8 @@
 """PPO in one file: learns where aircraft fly next, and is compared with `greedy` on validation days.
 
-Every vertiport is scored by the same small network from what a flight there would mean, so the weights fit
-networks of any size. The value looks at the whole fleet, whichever aircraft decides: above all at the hours
-that aircraft can still fly, which a long flight spends. All that both see comes from the observation "full".
-It needs PyTorch:
+The same small network scores every vertiport from features of a flight there, so the weights fit networks of
+any size. The value reads the whole fleet, regardless of the deciding aircraft: above all the hours that
+aircraft can still fly, which a long flight uses up. Both read the observation "full". It needs PyTorch:
 
     python ppo.py --network paper --minutes 5 --out ppo.pt
 """
@@ -26,9 +25,9 @@ from vertifleet.envs import FleetVectorEnv
 REWARD_SCALE = 30.0
 """A day's reward is about 0.035 on `paper`; multiplied by this, it is about 1."""
 DEMAND = (("demand_left", "fare"), ("demand_next", "fare_next"))
-"""Tables of demand, with the fares that it pays."""
+"""Tables of demand, with the tables of its fares."""
 READY_H = (0.25, 0.5, 1.0, 2.0)
-"""Aircraft at a vertiport are counted by whether they are ready within these times."""
+"""Aircraft at a vertiport are counted that are ready within each of these times."""
 FEATURES = 17 + len(READY_H)
 """Numbers that describe a choice."""
 PLACES = 10 + len(READY_H)
@@ -36,7 +35,7 @@ PLACES = 10 + len(READY_H)
 
 
 def onward(seen: dict[str, Tensor]) -> list[Tensor]:
-    """The most that a flight from each vertiport earns an hour, before energy, now and next: [B, N] each."""
+    """The highest hourly profit of a flight from each vertiport, before energy, now and next: [B, N] each."""
     seats = torch.einsum("bt,bt->b", seen["aircraft_type"], seen["types"][:, :, 0]).view(-1, 1, 1)
     hours = seen["block_time"].clamp(min=0.25) / seen["reachable"].clamp(min=1e-6)
     margins = [(seen[fare] - seen["passenger_cost"]).clamp(min=0) for _, fare in DEMAND]
@@ -52,7 +51,7 @@ def soon_ready(seen: dict[str, Tensor]) -> Tensor:
 
 
 def features(seen: dict[str, Tensor]) -> Tensor:
-    """What each choice means to the deciding aircraft: [B, N, FEATURES]."""
+    """The features of each choice for the deciding aircraft: [B, N, FEATURES]."""
     place = seen["place"]
     block = seen["choice_block_time"]
     from_here = [torch.einsum("bi,bij->bj", place, seen[table]) / 2 for table, _ in DEMAND]
@@ -75,7 +74,7 @@ def features(seen: dict[str, Tensor]) -> Tensor:
 
 
 def places(seen: dict[str, Tensor]) -> Tensor:
-    """What the value sees of every vertiport, which does not depend on who decides: [B, N, PLACES].
+    """The value's features of every vertiport, which do not depend on the deciding aircraft: [B, N, PLACES].
 
     The first four numbers are the same for all vertiports: the time, and the hours that aircraft have left.
     """
@@ -115,7 +114,7 @@ class Agent(nn.Module):
         return Categorical(logits=logits)
 
     def worth(self, places: Tensor) -> Tensor:
-        """The value of what the day still earns."""
+        """The value: the expected remaining reward of the day."""
         value: Tensor = self.value(self.place(places).mean(1)) + self.hours(places[:, 0, :4])
         return value.squeeze(-1)
 

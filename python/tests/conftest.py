@@ -10,8 +10,9 @@ import vertifleet
 
 
 def pytest_configure() -> None:
-    # Tests of Ctrl-C need a handler, even if this process was started with SIGINT ignored, as in the
-    # background of a script. Processes that tests start inherit an ignored signal, but not a handled one.
+    # Tests of Ctrl-C need a handler, even if this process was started with SIGINT ignored, as in
+    # the background of a script. Processes that tests start inherit an ignored signal, but not a
+    # handled one.
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 

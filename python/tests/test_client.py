@@ -1,4 +1,4 @@
-"""The client of the dispatch service, against the program itself.
+"""The client of the dispatch service, tested with the program.
 
 ``VERTIFLEET_PROGRAM`` names the program; without it, the newest one in ``target`` is taken, or built.
 """
@@ -34,7 +34,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def program() -> str:
-    """The program as the tests of Rust leave it, built as for them if there is none yet."""
+    """The program that the Rust tests built, or a new build with their settings if there is none."""
     if "VERTIFLEET_PROGRAM" in os.environ:
         return os.environ["VERTIFLEET_PROGRAM"]
     built = ROOT / "target" / "checked" / "release" / "vertifleet"
@@ -57,7 +57,7 @@ class Service:
         self.url, self.port = f"http://127.0.0.1:{found[1]}", int(found[1])
 
     def _address(self) -> re.Match[str]:
-        """What the service says first: where it listens."""
+        """The first line of the service's output, which contains its address."""
         for _ in range(3_000):
             found = re.search(r"http://127\.0\.0\.1:(\d+),", self.log.read_text())
             if found:
@@ -90,9 +90,9 @@ class Service:
 
 
 class Relay:
-    """Passes bytes on between clients and a service, and loses connections on request.
+    """Passes bytes on between clients and a service, and drops connections on request.
 
-    With a context it speaks TLS with the clients, as a proxy before a service does.
+    With a context it uses TLS with the clients, as a proxy in front of a service does.
     """
 
     def __init__(self, port: int, tls: ssl.SSLContext | None = None) -> None:
@@ -201,7 +201,7 @@ def test_a_decision_is_proposed_taken_undone_and_overruled(client: Client) -> No
     assert day.refresh()["seq"] == 3
 
 
-def test_a_policy_that_is_late_is_replaced_and_said_so(client: Client) -> None:
+def test_a_late_policy_is_replaced_and_named(client: Client) -> None:
     proposal = client.make_day("paper").propose("A01", "rolling", deadline_ms=0)
     assert (proposal["policy"], proposal.get("too_late")) == ("greedy", "rolling")
 
@@ -212,7 +212,7 @@ def test_a_day_can_be_a_scenario_of_the_package(client: Client, day: vertifleet.
     assert [each["id"] for each in made.state()["aircraft"]] == day.aircraft
 
 
-def test_an_outlook_is_compared_with_what_it_would_be(client: Client) -> None:
+def test_an_outlook_is_compared_with_that_of_a_changed_day(client: Client) -> None:
     day = client.make_day("paper", seed=1)
     outlook = day.outlook("greedy")
     assert outlook["policy"] == "greedy"
@@ -258,7 +258,7 @@ def test_writes_whose_answers_are_lost_happen_once(relay: Relay) -> None:
             day.delete()
 
 
-def test_nothing_is_written_to_a_day_that_has_gone_on(client: Client) -> None:
+def test_nothing_is_written_to_a_day_that_has_changed(client: Client) -> None:
     day = client.make_day("paper")
     day.report(clock("06:10:00"))
     with pytest.raises(ServiceError) as caught:
@@ -311,7 +311,7 @@ def test_an_archived_day_takes_nothing_more(client: Client) -> None:
     assert not day.refresh()["archived"]
 
 
-def test_a_day_that_has_gone_on_is_not_closed(client: Client) -> None:
+def test_a_day_that_has_changed_is_not_archived(client: Client) -> None:
     day = client.make_day("paper")
     day.report(clock("06:10:00"))
     for change in (day.archive, day.unarchive, day.delete):
@@ -409,7 +409,7 @@ def test_weights_are_uploaded_validated_and_deleted(client: Client) -> None:
         client.policy("mine")
 
 
-def test_a_service_gives_signs_of_life_and_describes_itself(client: Client) -> None:
+def test_a_service_answers_health_checks_and_describes_its_api(client: Client) -> None:
     assert client.is_running()
     assert client.is_ready()
     assert "vertifleet" in client.metrics()
@@ -454,7 +454,7 @@ def test_a_token_is_sent(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Non
         guarded.stop()
 
 
-def test_all_of_it_works_with_asyncio(relay: Relay) -> None:
+def test_the_client_works_with_asyncio(relay: Relay) -> None:
     async def whole_day() -> None:
         async with AsyncClient(relay.url) as client:
             day = await client.make_day("paper", seed=1)

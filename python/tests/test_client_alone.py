@@ -1,4 +1,4 @@
-"""The client of the dispatch service without a service, or with one that fails."""
+"""The client of the dispatch service, without a service or with one that fails."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from vertifleet.client import Client, NoAnswerError, ServiceError
 from vertifleet.client._messages import Message, Messages
 
 
-def test_messages_are_put_together_from_any_pieces() -> None:
+def test_messages_are_assembled_from_any_pieces() -> None:
     said = (
         ": keep-alive\n\nevent: behind\ndata: 3 events came\n\n"
         'id: 7\r\ndata: {"reason":\r\ndata: "a\u2028b"}\r\n\r\nid: 8\n\n'
@@ -67,7 +67,7 @@ def test_a_request_is_sent_again_as_it_was_and_not_for_ever() -> None:
         assert len(set(sent)) == 2, "another request has another key"
 
 
-def test_a_service_that_is_not_there_is_said_to_be_so() -> None:
+def test_a_missing_service_raises_v613() -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
     with Client(f"http://127.0.0.1:{port}", retries=1) as client, pytest.raises(NoAnswerError) as caught:

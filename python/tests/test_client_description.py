@@ -1,4 +1,4 @@
-"""The client has all that the description of the API has, and its written files are up to date."""
+"""The client covers the whole description of the API, and its generated files are up to date."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ CALLED = {
     "Last-Event-ID": "after",
     "toml": "network",
 }
-"""What parameters are called in Python, where that is something else."""
+"""The names of parameters in Python, if they differ."""
 
 OPERATIONS = {
     operation["operationId"]: (method.upper(), path, operation)
@@ -91,7 +91,7 @@ def members(schema: dict[str, Any]) -> set[str]:
 
 
 def parameters(operation: dict[str, Any]) -> set[str]:
-    """What can be said when an operation is called, but for what its path names."""
+    """The parameters and body members of an operation, without those in its path."""
     said = {each["name"] for each in operation.get("parameters", []) if each["in"] != "path"}
     content = operation.get("requestBody", {}).get("content", {})
     for kind in content.values():
@@ -106,7 +106,7 @@ def method_of(client: Any, day: Any, name: str) -> Callable[..., Any]:
 
 
 async def ended(outcome: Any) -> Any:
-    """What a call leads to in the end, of a client with or without asyncio."""
+    """The final result of a call, of a client with or without asyncio."""
     if inspect.isasyncgen(outcome):
         return await anext(outcome)
     if inspect.isgenerator(outcome):

@@ -57,19 +57,19 @@ def test_a_function_and_a_class_that_choose_alike_are_measured_alike() -> None:
     assert (by_policy["class"] == by_policy["function"]).all()
 
 
-def test_functions_on_networks_of_many_sizes_say_what_they_were_made_for() -> None:
+def test_functions_for_networks_of_many_sizes_name_their_source_of_days() -> None:
     with pytest.raises(vertifleet.Error, match="takes a network"):
         vertifleet.evaluate(first_feasible, "random-50")
 
 
-def test_several_suites_leave_out_who_cannot_play() -> None:
+def test_suites_leave_out_policies_that_cannot_play_them() -> None:
     with pytest.warns(UserWarning, match="gcaps is left out of random-50"):
         evaluation = vertifleet.evaluate(["greedy", "gcaps"], ["paper-100", "random-50"])
     assert set(evaluation.bound_share["paper-100"]) == {"greedy", "gcaps"}
     assert set(evaluation.bound_share["random-50"]) == {"greedy"}
 
 
-def test_results_keep_to_their_schema_and_are_verified(tmp_path: Path) -> None:
+def test_results_match_their_schema_and_are_verified(tmp_path: Path) -> None:
     evaluation = vertifleet.evaluate({"mine": FirstFeasible, "greedy": "greedy"}, threads=1)
     paths = evaluation.save(tmp_path, about={"training": "none"})
     assert [path.name for path in paths] == ["paper-100-mine.json", "paper-100-greedy.json"]
@@ -116,7 +116,7 @@ def test_suites_are_named() -> None:
     assert error.value.code == "V411"
 
 
-def test_policies_asked_about_many_days_at_once_choose_as_they_do_one_by_one() -> None:
+def test_batch_policies_choose_as_they_do_one_by_one() -> None:
     def rates(observation: dict[str, Any]) -> Any:
         rate = observation["choice_profit"] / observation["choice_block_time"].clip(0.1)
         return np.where(observation["action_mask"] == 1, rate, -1.0)

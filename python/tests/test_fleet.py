@@ -76,7 +76,7 @@ def test_all_randomness_is_from_np_random() -> None:
     assert env.scenario.name == f"paper-{seed}"
 
 
-def test_the_day_is_named_and_can_be_looked_at(day: vertifleet.Scenario) -> None:
+def test_the_day_has_a_name_and_a_scenario(day: vertifleet.Scenario) -> None:
     env = FleetEnv()
     assert (env.scenario, env.aircraft, env.time_s) == (None, None, None)
     _, info = env.reset(seed=1)
@@ -108,7 +108,7 @@ def test_the_mask_is_the_same_in_every_form() -> None:
         assert masks.any()
 
 
-def test_an_infeasible_action_holds_and_says_so(day: vertifleet.Scenario) -> None:
+def test_an_infeasible_action_holds_and_sets_invalid_action(day: vertifleet.Scenario) -> None:
     infeasible, holding = FleetEnv(), FleetEnv()
     _, info = infeasible.reset(options={"scenario": day})
     holding.reset(options={"scenario": day})
@@ -145,7 +145,7 @@ def test_dense_rewards_add_up_to_the_terminal_one() -> None:
 
 
 @pytest.mark.parametrize("network", ["paper", "disrupted", "new-york"])
-def test_the_decisions_of_a_policy_come_to_what_the_library_says(network: str) -> None:
+def test_the_decisions_of_a_policy_earn_what_simulate_returns(network: str) -> None:
     day = vertifleet.Network(network).draw(5)
     played = vertifleet.simulate(day, "greedy")
     env = FleetEnv(network)
@@ -162,7 +162,7 @@ def test_the_decisions_of_a_policy_come_to_what_the_library_says(network: str) -
     assert info["summary"] == played.summary
 
 
-def test_observations_are_within_their_space_whatever_is_done() -> None:
+def test_observations_are_within_their_space_for_any_actions() -> None:
     env = FleetEnv("disrupted")
     size = len(env.network.vertiports)
     choices = np.random.default_rng(3)
@@ -189,7 +189,7 @@ def test_adjacency_has_the_pairs_that_can_be_flown(day: vertifleet.Scenario) -> 
     assert np.array_equal(observation["adjacency"].reshape(8, 8), expected)
 
 
-def test_what_is_wrong_is_named() -> None:
+def test_errors_name_the_argument() -> None:
     for reward in ("weekly", "Dense", None):
         with pytest.raises(vertifleet.Error, match="reward must be") as error:
             FleetEnv(reward=reward)
@@ -248,7 +248,7 @@ def test_a_network_object_may_be_passed_and_travels() -> None:
     assert env.unwrapped.network.fleet_size == 12
 
 
-def test_copies_share_what_never_changes_and_nothing_else() -> None:
+def test_copies_share_only_immutable_members() -> None:
     class Noted(FleetEnv):
         notes: list[str]
 
@@ -299,7 +299,7 @@ def test_a_copy_in_the_middle_of_a_day_goes_on_as_the_day_would(how: str) -> Non
     assert np.array_equal(env.reset()[0]["nodes"], other.reset()[0]["nodes"]), "the same next day follows"
 
 
-def test_a_day_says_whose_it_is() -> None:
+def test_infos_name_the_split_of_a_day() -> None:
     env = gymnasium.make("vertifleet/Fleet-v0", split="validation")
     assert env.reset(seed=1)[1]["split"] == "validation"
     day = vertifleet.Network("paper").draw(1)
@@ -327,7 +327,7 @@ def test_texts_in_infos_survive_a_conversion_to_tensors() -> None:
     assert float(info["summary"]["profit_usd"]) == pytest.approx(profit_usd, rel=1e-6)
 
 
-def test_a_view_names_what_it_shows() -> None:
+def test_a_view_lists_its_members() -> None:
     env = FleetEnv("paper")
     env.reset(seed=1)
     assert {"action_mask", "choice_profit_usd", "decision"} <= set(dir(env.view))
@@ -335,7 +335,7 @@ def test_a_view_names_what_it_shows() -> None:
 
 
 @pytest.mark.parametrize("returned", [None, "V1", 1.5, [1]])
-def test_what_a_policy_may_not_return_is_named_with_it(returned: object) -> None:
+def test_an_invalid_return_value_of_a_policy_is_named(returned: object) -> None:
     def mine(_observation: object) -> object:
         return returned
 

@@ -1,4 +1,4 @@
-"""Many days side by side behave like that many single environments, in all modes of autoreset."""
+"""Many days in parallel behave like single environments, in all modes of autoreset."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def same(one: Any, other: Any) -> bool:
 
 
 def told(info: dict[str, Any]) -> dict[str, Any]:
-    """The parts of an info that belong to the environments it is about, and which environments those are."""
+    """The parts of an info for its environments, and the positions of these environments."""
     said = {key: value[info[f"_{key}"]] for key, value in info.items() if key[0] != "_"}
     return said | {key: value for key, value in info.items() if key[0] == "_"}
 
@@ -43,7 +43,7 @@ def actions(masks: np.ndarray, choices: np.random.Generator) -> np.ndarray:
 
 
 def lockstep(mode: AutoresetMode, reward: str, steps: int) -> Iterator[tuple[Any, Any]]:
-    """The results, step by step, of the native environment and of Gymnasium's own loop over single ones."""
+    """The results, step by step, of the native environment and of Gymnasium's loop over single ones."""
     native = FleetVectorEnv(5, reward=reward, autoreset_mode=mode, threads=2)
     loop = SyncVectorEnv([lambda: FleetEnv(reward=reward)] * 5, autoreset_mode=mode)
     choices = np.random.default_rng(4)
@@ -102,7 +102,7 @@ def test_make_vec_gives_the_native_environment() -> None:
     assert env.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
 
 
-def test_observations_are_copies_unless_asked_otherwise() -> None:
+def test_observations_are_copies_by_default() -> None:
     env = FleetVectorEnv(4)
     handed_out = [env.reset(seed=1)]
     kept = copy.deepcopy(handed_out)
@@ -138,7 +138,7 @@ def test_observations_of_steps_outlast_a_reset_of_some() -> None:
     assert same(handed_out[2], kept[2]), "arrays of a reset of some last until the next such reset"
 
 
-def test_days_are_named_when_they_begin_and_can_be_looked_at() -> None:
+def test_days_have_a_name_when_they_begin_and_a_scenario() -> None:
     env = FleetVectorEnv(3, autoreset_mode=AutoresetMode.SAME_STEP)
     assert env.scenarios() == [None] * 3
     _, info = env.reset(seed=1)
@@ -156,7 +156,7 @@ def test_days_are_named_when_they_begin_and_can_be_looked_at() -> None:
     assert begun >= 3
 
 
-def test_what_is_handed_out_may_be_changed() -> None:
+def test_returned_arrays_may_be_changed() -> None:
     env, other = FleetVectorEnv(3), FleetVectorEnv(3)
     for one in (env, other):
         one.reset(seed=1)
@@ -279,7 +279,7 @@ def test_a_reset_of_some_takes_any_array_of_truth_values_and_keeps_none() -> Non
     assert np.array_equal(mask, [False, False, True])
 
 
-def test_what_is_wrong_is_named() -> None:
+def test_errors_name_the_argument() -> None:
     env = FleetVectorEnv(2, autoreset_mode=AutoresetMode.DISABLED)
     with pytest.raises(vertifleet.Error, match="call reset"):
         env.step([0, 0])

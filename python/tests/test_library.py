@@ -61,7 +61,7 @@ def test_a_day_is_written_and_read(day: Scenario, tmp_path: Path) -> None:
     assert (error.value.code, "night.json" in error.value.message) == ("V101", True)
 
 
-def test_arrays_of_a_day_have_the_shapes_they_say(day: Scenario) -> None:
+def test_arrays_of_a_day_have_the_documented_shapes(day: Scenario) -> None:
     assert day.demand.shape == day.fare_usd.shape == (13, 8, 8)
     assert day.distance_mi.shape == day.passenger_cost_usd.shape == (8, 8)
     assert day.start_positions.shape == (40,)
@@ -73,7 +73,7 @@ def test_arrays_of_a_day_have_the_shapes_they_say(day: Scenario) -> None:
     assert np.allclose(distances, day.distance_mi)
 
 
-def test_everything_that_travels_arrives_as_it_was(paper: Network, day: Scenario) -> None:
+def test_pickled_objects_are_restored_unchanged(paper: Network, day: Scenario) -> None:
     trace = vertifleet.simulate(day, "greedy").trace
     model = Model.shipped("mlp")
     comparison = vertifleet.compare(paper, ["greedy"], days=2)
@@ -93,7 +93,7 @@ def test_everything_that_travels_arrives_as_it_was(paper: Network, day: Scenario
     assert again.summary == comparison.summary
 
 
-def test_a_trace_is_a_schedule_that_can_be_kept_replayed_and_judged(day: Scenario, tmp_path: Path) -> None:
+def test_a_trace_can_be_written_replayed_and_checked(day: Scenario, tmp_path: Path) -> None:
     played = vertifleet.simulate(day, "gcaps-x")
     path = tmp_path / "trace.csv"
     played.trace.write(path)
@@ -150,9 +150,7 @@ def test_a_comparison_in_parts_is_the_whole(paper: Network) -> None:
     assert error.value.code == "V409"
 
 
-def test_days_of_ones_own_earn_what_they_do_alone_wherever_they_come_from(
-    paper: Network, tmp_path: Path
-) -> None:
+def test_given_days_earn_in_a_comparison_what_they_earn_alone(paper: Network, tmp_path: Path) -> None:
     days = [paper.draw(seed) for seed in (31, 32)]
     for at, day in enumerate(days):
         day.write(tmp_path / f"{at}.json")
@@ -386,7 +384,7 @@ def test_a_schedule_of_another_day_is_judged_by_its_ids(day: Scenario) -> None:
     assert error.value.code == "V207"
 
 
-def test_where_nothing_can_be_earned_nothing_is_missed(paper: Network) -> None:
+def test_the_gap_is_zero_if_nothing_can_be_earned(paper: Network) -> None:
     poor = paper.changed({"tariffs.fare_base": 0.5, "tariffs.fare_demand_weight": 0})
     plan = vertifleet.plan(poor.draw(1), steps=10, threads=1)
     assert (plan.profit_usd, plan.bound.upper_bound_usd, plan.gap) == (0.0, 0.0, 0.0)
@@ -405,7 +403,7 @@ def test_a_report_names_the_call_that_made_it(paper: Network) -> None:
     )
 
 
-def test_a_model_plays_and_says_what_environments_ask_it(day: Scenario) -> None:
+def test_a_model_plays_as_a_policy_in_environments(day: Scenario) -> None:
     model = Model.shipped("gcaps")
     assert vertifleet.simulate(day, model).summary == vertifleet.simulate(day, "gcaps").summary
     shown, _ = vertifleet.envs.FleetVectorEnv(3).reset(seed=1)
@@ -425,7 +423,7 @@ def test_a_comparison_says_how_it_was_made() -> None:
         assert np.array_equal(column, again.columns[name])
 
 
-def test_arrays_are_read_however_they_lie_in_memory() -> None:
+def test_arrays_of_any_memory_layout_are_read() -> None:
     model = Model.shipped("gcaps")
     draws = np.random.default_rng(1)
     nodes, aircraft = draws.random((6, 8, 20), np.float32), draws.random((6, 18), np.float32)

@@ -1,4 +1,4 @@
-"""Long calls leave Python to its other threads, and end when Ctrl-C is pressed."""
+"""Long calls release Python for its other threads, and end after Ctrl-C."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def test_ctrl_c_ends_a_long_call(call: str, tmp_path: Path) -> None:
     program = f"import vertifleet\nprint('begun', flush=True)\n{LONG[call]}\nprint('done', flush=True)"
     process = subprocess.Popen(
         [sys.executable, "-c", program],
-        # Away from the sources, which have no extension module next to them.
+        # Outside the source tree, which contains no extension module.
         cwd=tmp_path,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
@@ -58,7 +58,8 @@ def test_where_ctrl_c_is_ignored_a_call_goes_on_to_its_end(tmp_path: Path) -> No
         "import vertifleet\nprint('begun', flush=True)\n"
         "vertifleet.plan(vertifleet.Network('paper').draw(1), time_limit=3)\nprint('done', flush=True)"
     )
-    # A shell without job control starts background processes like this: a child inherits an ignored signal.
+    # A shell without job control starts background processes like this: a child inherits an ignored
+    # signal.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         command = [sys.executable, "-c", program]

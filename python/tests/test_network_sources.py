@@ -1,4 +1,4 @@
-"""The shipped networks of cities are what their tables say."""
+"""The shipped networks of cities match their source tables."""
 
 import subprocess
 import sys
@@ -7,7 +7,7 @@ from pathlib import Path
 MAKE = Path(__file__).resolve().parents[2] / "networks/sources/make.py"
 
 
-def test_the_networks_of_cities_are_what_their_sources_give():
+def test_the_networks_of_cities_match_their_sources():
     checked = subprocess.run(
         [sys.executable, "-B", MAKE, "--check"], capture_output=True, text=True, check=False
     )

@@ -1,4 +1,4 @@
-"""What environments show, and whose days: observations, views, rewards and networks of one's choice."""
+"""Observations, views, rewards and networks of the caller's choice."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_every_variant_is_a_gymnasium_environment(variant: str) -> None:
 @pytest.mark.parametrize(
     "observation", ["paper", "full", "gcaps-x", "gcaps-full", ["demand_left", "fleet_ready"]]
 )
-def test_a_batch_shows_what_single_environments_show(observation: Any) -> None:
+def test_a_batch_has_the_observations_of_single_environments(observation: Any) -> None:
     batch = FleetVectorEnv(3, "disrupted", observation=observation, threads=2)
     alone = [FleetEnv("disrupted", observation=observation) for _ in range(3)]
     shown, info = batch.reset(seed=7)
@@ -58,7 +58,7 @@ def test_a_batch_shows_what_single_environments_show(observation: Any) -> None:
         ones = [env.step(int(action))[0] for env, action in zip(alone, actions, strict=True)]
 
 
-def test_a_view_shows_the_same_in_units_and_cannot_be_changed() -> None:
+def test_a_view_has_the_same_numbers_in_units_and_is_read_only() -> None:
     env = FleetEnv("disrupted", observation="full")
     observation, _ = env.reset(seed=2)
     for _ in range(30):
@@ -76,7 +76,7 @@ def test_a_view_shows_the_same_in_units_and_cannot_be_changed() -> None:
         _ = view.scenario
 
 
-def test_views_have_what_their_class_says() -> None:
+def test_views_have_the_members_of_their_class() -> None:
     env = FleetEnv("disrupted")
     env.reset(seed=1)
     arrays = [name for name, kind in View.__annotations__.items() if kind == "Numbers"]
@@ -85,7 +85,7 @@ def test_views_have_what_their_class_says() -> None:
         assert getattr(env.view, name).dtype == np.float32, name
 
 
-def test_an_observation_of_ones_own() -> None:
+def test_an_observation_of_the_caller() -> None:
     def seen(view: View) -> NDArray[np.float32]:
         return view.choice_profit_usd / 100
 
@@ -102,7 +102,7 @@ def test_an_observation_of_ones_own() -> None:
 
 
 @pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
-def test_a_reward_of_ones_own_sees_the_decision_and_what_came_of_it(mode: str) -> None:
+def test_a_reward_of_the_caller_gets_the_decision_and_its_outcome(mode: str) -> None:
     def dollars(view: View, outcome: Outcome) -> float:
         assert view.decision.aircraft == outcome["aircraft"]
         assert view.decision.place == outcome["origin"]
@@ -144,7 +144,7 @@ def test_days_of_a_split_are_days_of_no_other() -> None:
     assert error.value.code == "V118"
 
 
-def test_networks_are_drawn_anew_for_each_day() -> None:
+def test_a_new_network_is_drawn_for_each_day() -> None:
     env = FleetEnv("random-places:6", observation="full")
     places = set()
     for seed in range(4):
@@ -177,7 +177,7 @@ def test_days_of_a_list_of_networks_come_in_turn() -> None:
 
 
 @pytest.mark.parametrize("network", ["paper", "random", "random-places:5"])
-def test_copies_and_pickles_go_on_alike(network: str) -> None:
+def test_copies_and_pickles_continue_alike(network: str) -> None:
     env = FleetEnv(network, observation="full")
     env.reset(seed=3)
     for _ in range(25):
@@ -203,14 +203,14 @@ def test_copies_and_pickles_go_on_alike(network: str) -> None:
         ({"reward": "sparse"}, "reward must be"),
     ],
 )
-def test_what_cannot_be_shown_is_refused(arguments: dict[str, Any], says: str) -> None:
+def test_invalid_observations_are_refused(arguments: dict[str, Any], says: str) -> None:
     with pytest.raises(vertifleet.Error, match=says) as error:
         FleetEnv(**arguments)
     assert error.value.code == "V451"
 
 
 class Greedy:
-    """A policy as an object, which counts the days that it was notified of."""
+    """A policy as an object, which counts its calls of `reset`."""
 
     def __init__(self) -> None:
         self.days = 0
@@ -224,7 +224,7 @@ class Greedy:
         return greedy(view)
 
 
-def test_policies_of_ones_own_in_every_form_play_as_the_built_in_rule() -> None:
+def test_policies_of_the_caller_in_every_form_play_as_the_built_in_rule() -> None:
     one = Greedy()
 
     def of_full(observation: dict[str, NDArray[np.float32]]) -> int:
@@ -256,7 +256,7 @@ def test_a_choice_outside_the_mask_holds_is_counted_and_warned_of() -> None:
 
 
 @pytest.mark.parametrize("name", ["random", "greedy", "prices", "rolling", "gcaps", "mlp", "gcaps-x"])
-def test_a_policy_that_is_asked_plays_as_the_program_does(name: str) -> None:
+def test_a_called_policy_plays_as_the_program_does(name: str) -> None:
     day = Network("paper").draw(5)
     played = vertifleet.simulate(day, name)
     policy = vertifleet.policy(name)
@@ -265,7 +265,7 @@ def test_a_policy_that_is_asked_plays_as_the_program_does(name: str) -> None:
     assert policy.sees in repr(policy)
 
 
-def test_what_policies_compare_choices_by() -> None:
+def test_the_values_of_policies() -> None:
     env = FleetEnv()
     env.reset(seed=4)
     policies = {
@@ -289,14 +289,14 @@ def test_what_policies_compare_choices_by() -> None:
     assert agree["random"] == 0, "it has no values"
 
 
-def test_a_policy_that_is_none_is_refused() -> None:
+def test_an_object_that_is_no_policy_is_refused() -> None:
     for name, code in [("plan", "V451"), ("gredy", "V307"), ("replay:none.csv", "V102")]:
         with pytest.raises(vertifleet.Error) as error:
             vertifleet.policy(name)
         assert error.value.code == code or name.startswith("replay")
 
 
-def test_a_closed_environment_says_so() -> None:
+def test_a_closed_environment_raises_an_error() -> None:
     env, batch = FleetEnv(), FleetVectorEnv(2)
     env.reset(seed=1)
     batch.reset(seed=1)
@@ -317,7 +317,7 @@ def test_a_spec_is_plain_data_and_makes_the_same_environment() -> None:
     assert all(np.array_equal(one[name], other[name]) for name in one)
 
 
-def test_every_environment_of_a_batch_may_play_a_day_of_its_own() -> None:
+def test_each_environment_of_a_batch_may_get_its_own_day() -> None:
     days = [Network("paper").draw(seed) for seed in (4, 5, 6)]
     batch = FleetVectorEnv(3)
     _, info = batch.reset(options={"scenario": days})
@@ -326,7 +326,7 @@ def test_every_environment_of_a_batch_may_play_a_day_of_its_own() -> None:
         batch.reset(options={"scenario": days[:2]})
 
 
-def test_arguments_that_are_none_are_named_as_python_has_them() -> None:
+def test_none_arguments_are_named_as_in_python() -> None:
     with pytest.raises(vertifleet.Error, match="named by texts"):
         vertifleet.compare("paper", ["greedy", greedy], days=1)  # type: ignore[list-item]
     with pytest.raises(vertifleet.Error) as error:

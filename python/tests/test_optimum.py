@@ -78,9 +78,9 @@ def grid_day(seed: int) -> dict[str, Any]:
 
 
 def best_profit_usd(day: dict[str, Any], *, frees_first: bool) -> tuple[float, float]:
-    """The most that a day can earn, as the profit of a schedule and as an upper bound that is hardly higher.
+    """The optimum of a day, as the profit of a schedule and as a slightly higher upper bound.
 
-    Where aircraft leave a vertiport in the tick in which others fly to it, `frees_first` says whether all of
+    If aircraft leave a vertiport in the tick in which others fly to it, `frees_first` decides whether all of
     their stands are free before, or none of them. The optimum lies between, because aircraft decide in file
     order.
     """

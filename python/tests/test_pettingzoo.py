@@ -21,7 +21,7 @@ from vertifleet import pettingzoo
 SMALL = vertifleet.Network("paper").changed({"fleet.0.count": 6, "operations.end": "09:00:00"})
 
 
-def test_pettingzoo_finds_nothing_wrong() -> None:
+def test_pettingzoos_tests_pass() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         # PettingZoo prefers one array to several arrays and a mask.
@@ -81,7 +81,7 @@ def test_the_end_has_the_days_numbers() -> None:
 
 
 @pytest.mark.parametrize("how", [copy.copy, copy.deepcopy])
-def test_copies_play_on_by_themselves_and_share_what_never_changes(how: Any) -> None:
+def test_copies_play_on_independently_and_share_immutable_members(how: Any) -> None:
     env = pettingzoo.FleetAEC(SMALL, "dense")
     env.reset(seed=3)
     for _ in range(20):
@@ -152,7 +152,7 @@ def test_a_day_of_another_fleet_is_refused() -> None:
     assert error.value.code == "V451"
 
 
-def test_the_state_is_all_that_may_be_seen() -> None:
+def test_the_state_is_the_full_observation() -> None:
     agents, single = pettingzoo.env("paper"), FleetEnv("paper", observation="full")
     agents.reset(seed=3)
     full, _ = single.reset(seed=3)
@@ -161,7 +161,7 @@ def test_the_state_is_all_that_may_be_seen() -> None:
     assert np.array_equal(state, np.concatenate([array.ravel() for array in full.values()]))
 
 
-def test_agents_have_what_single_agents_have() -> None:
+def test_agents_have_the_members_of_single_agents() -> None:
     agents = pettingzoo.FleetAEC("paper", observation="full", split="validation")
     single = FleetEnv("paper", observation="full", split="validation")
     agents.reset(options={"number": 7})

@@ -1,4 +1,4 @@
-"""What an environment renders, and the pictures of days and traces."""
+"""The frames of environments, and the pictures of days and traces."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_frames_show_the_fleet_and_change_with_it(paper: Network) -> None:
     assert np.array_equal(again.render(), frames[0])
 
 
-def test_a_day_that_is_over_can_still_be_looked_at(day: Scenario) -> None:
+def test_a_finished_day_can_still_be_rendered(day: Scenario) -> None:
     env = vertifleet.envs.FleetEnv(render_mode="ansi")
     env.reset(options={"scenario": day})
     assert "> V" in env.render()

@@ -1,8 +1,8 @@
-"""The HTTP API of the dispatch service against its own description: Schemathesis makes requests from it.
+"""The HTTP API of the dispatch service matches its description: Schemathesis makes requests from it.
 
-Valid and invalid ones for every operation of ``docs/src/reference/openapi.json`` go to the program itself.
-Many name days, aircraft, networks and policies that exist. Each day that is named is made for one request, so
-no request depends on those before it, and what a request must not change can be seen.
+The program receives valid and invalid ones for every operation of ``docs/src/reference/openapi.json``. Many
+name existing days, aircraft, networks and policies. Each such day is made for one request, so no request
+depends on earlier ones, and the tests can check that a request changes nothing else.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ STREAM = "/v1/days/{day}/stream"
 
 CONFIG = {
     "seed": 1,
-    # What other runs, answers and sources held would make runs differ.
+    # Examples from earlier runs, answers and sources would make runs differ.
     "cache": {"enabled": False},
     "analysis": {"constants": {"enabled": False}},
     "phases": {
@@ -45,8 +45,8 @@ CONFIG = {
         "stateful": {"enabled": False},
     },
     "checks": {
-        # The rules of days and files are not in the description; 400, 409, 412 and 422 refuse what breaks
-        # them. Of 400 see `what_is_described_is_understood` too.
+        # The rules of days and files are not in the description; 400, 409, 412 and 422 refuse what
+        # breaks them. Of 400 see `what_is_described_is_understood` too.
         "positive_data_acceptance": {"expected-statuses": ["2xx", "400", "404", "409", "412", "422"]},
     },
     "operations": [{"include-path": STREAM, "max-stream-events": 1}],
@@ -61,14 +61,15 @@ SETTINGS = settings(
 )
 
 NETWORK = Network("paper").toml.replace('name = "paper"', 'name = "uploaded"')
-# The days of these tests last two hours, because each of about a thousand what-ifs plays a day to its end.
+# The days of these tests last two hours, because each of about a thousand what-ifs plays a day to
+# its end.
 MORNING = (
     Network("paper")
     .toml.replace('name = "paper"', 'name = "morning"')
     .replace('end = "18:00:00"', 'end = "08:00:00"')
 )
 WEIGHTS = Model.shipped("gcaps-x").to_bytes()
-# What exists, by what texts mean. The first is the one that stays while all else in a request varies.
+# Existing names, by kind. The first stays in a request while everything else varies.
 FORMATS: dict[str, list[Any]] = {
     "day": ["new", "dated", "archived"],
     "aircraft": ["A01", "A02", "A03"],
@@ -95,7 +96,7 @@ MEMBERS = {
     "toml": "network-file",
 }
 
-# Rules that a schema cannot state, or not so that anybody could read it, by what the service says of them.
+# Rules that a schema cannot state, or only unreadably, by the service's message about them.
 RULES_IN_WORDS = [
     "times can be written in ISO 8601 for days that have a date",
     "has a date, but the day has none",
@@ -107,7 +108,7 @@ RULES_IN_WORDS = [
     "`time_zone` goes with `date`",
     "a day with a `date` needs a `time_zone`",
     "is no time zone",
-    # Dates and times that look like some: the 30th of February, midnight before the day.
+    # Invalid dates and times in a valid format: the 30th of February, midnight before the day.
     "is no date from 1970 to 2199",
     "is no time of the day",
     "expected a time as HH:MM:SS",
@@ -115,7 +116,7 @@ RULES_IN_WORDS = [
     "must be the number of an event",
     "the network is called",
     "this is the name of a policy that the program has",
-    # To JSON Schema 2.0 is an integer. No known client writes integers so.
+    # In JSON Schema 2.0 is an integer. No known client writes integers so.
     r"floating point `-?\d+\.0`",
 ]
 REFUSALS = re.compile("|".join(RULES_IN_WORDS))
@@ -131,7 +132,7 @@ def parts_of(schema: Any) -> Iterator[dict[str, Any]]:
 
 
 def load(description: dict[str, Any]) -> OpenApiSchema:
-    """The description with formats, by which texts often name what exists."""
+    """The description with formats, by which generated texts often name existing objects."""
     description = deepcopy(description)
     for path, operations in description["paths"].items():
         for parameter in (each for one in operations.values() for each in one.get("parameters", [])):
@@ -149,17 +150,17 @@ def load(description: dict[str, Any]) -> OpenApiSchema:
 
 for meaning, known in FORMATS.items():
     any_other = st.binary() if meaning == "weights" else st.text(max_size=12)
-    # Two of three name what exists.
+    # Two of three name existing objects.
     schemathesis.openapi.format(meaning, st.one_of(*[st.sampled_from(known)] * 2, any_other))
 SCHEMA = load(DESCRIPTION)
 
 
 class Days:
-    """Days of a service, made as requests name them."""
+    """Days of a service, made when a request names them."""
 
     def __init__(self, url: str) -> None:
         self.url = url
-        # Generated requests have a separate one, which they may spoil.
+        # Generated requests have another one, which they may invalidate.
         self.session, self.session_of_cases = requests.Session(), requests.Session()
         self.keys = count()
 
@@ -187,7 +188,7 @@ class Days:
 
     @contextmanager
     def going_on(self, day: str) -> Iterator[None]:
-        """Lets things happen on a day, so that no stream of it stays silent."""
+        """Adds events to a day, so that none of its streams stays silent."""
         is_over = threading.Event()
 
         def go_on() -> None:
@@ -216,7 +217,7 @@ def days(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Days]:
 
 
 def validator(schema: dict[str, Any]) -> jsonschema.Draft202012Validator:
-    """Of something in the description, formats included."""
+    """A validator of a schema in the description, including formats."""
     whole = {"components": DESCRIPTION["components"], **schema}
     return jsonschema.Draft202012Validator(whole, format_checker=KNOWN_FORMATS)
 
@@ -237,7 +238,7 @@ def errors_are_problems(_: CheckContext, response: Response, __: Case) -> None:
 
 
 def successes_are_described(_: CheckContext, response: Response, case: Case) -> None:
-    """`default` describes what is wrong, but would cover any other status too."""
+    """`default` describes errors, but would cover any other status too."""
     if response.status_code < 400:
         assert str(response.status_code) in case.operation.responses.status_codes
 
@@ -267,7 +268,8 @@ CHECKS_OF_OURS = [
 @SCHEMA.hook
 def filter_failure(_: HookContext, failure: Failure, case: Case, __: Response) -> bool:
     """Whether something counts as a failure."""
-    # OpenAPI 3.1 cannot describe streams; ours means the data of each message: see `streams_have_events`.
+    # OpenAPI 3.1 cannot describe streams; the schema here is that of each message: see
+    # `streams_have_events`.
     return case.operation.path != STREAM or failure.title != "SSE event violates schema"
 
 
@@ -276,7 +278,7 @@ def filter_failure(_: HookContext, failure: Failure, case: Case, __: Response) -
 def test_the_service_does_what_its_description_says(case: Case, days: Days) -> None:
     path, day, before = case.operation.path, None, None
     if (named := case.path_parameters.get("day")) in FORMATS["day"]:
-        # Nothing happens on an archived day, so its streams may say nothing.
+        # An archived day has no new events, so its streams may be silent.
         before = days.make("dated" if path == STREAM and named == "archived" else named)
         day = case.path_parameters["day"] = before["id"]
     if "uploaded" in case.path_parameters.values():
@@ -296,7 +298,7 @@ DECISION = "/v1/days/{day}/aircraft/A01/decision"
 DECISIONS = "/v1/days/{day}/decisions"
 EVENTS = "/v1/days/{day}/events"
 WHAT_IF = "/v1/days/{day}/what-if"
-# What was once understood otherwise than it is described.
+# Requests that earlier versions interpreted differently from the description.
 AGREED = {
     "days-limit": ("get", "/v1/days", {"params": {"limit": 2**31}}),
     "events-limit": ("get", EVENTS, {"params": {"limit": 2**31}}),
@@ -356,7 +358,7 @@ def test_the_last_days_have_outlooks(days: Days) -> None:
         assert days.session.get(outlook, params={"times": "iso"}).ok
 
 
-def test_a_date_is_no_more_than_a_date(days: Days) -> None:
+def test_a_date_has_no_time(days: Days) -> None:
     calendar = {"date": "2026-11-23T07:00", "time_zone": "Europe/Berlin"}
     made = days.session.post(f"{days.url}/v1/days", json={"network": "paper", **calendar})
     assert made.status_code == 400 or made.json()["date"] == "2026-11-23"

@@ -12,7 +12,7 @@ TOOLS = Path(__file__).resolve().parents[1] / "tools"
 
 
 @pytest.mark.parametrize("tool", ["stub_docs.py", "api_page.py"])
-def test_what_is_made_of_docstrings_is_as_they_are(tool: str, tmp_path: Path) -> None:
+def test_generated_docs_match_the_docstrings(tool: str, tmp_path: Path) -> None:
     command = [sys.executable, str(TOOLS / tool), "--check"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

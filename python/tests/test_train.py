@@ -1,4 +1,4 @@
-"""`vertifleet.train`: the program's own trainer, from Python."""
+"""`vertifleet.train`: the program's trainer, from Python."""
 
 import signal
 import threading

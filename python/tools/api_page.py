@@ -41,7 +41,7 @@ def source_of(module: str) -> Path:
 
 
 def find(module: str, name: str) -> ast.stmt | None:
-    """The definition of a name, wherever a module imports it from; none for what is no class or function."""
+    """The definition of a name, also in modules that this one imports from; None for other objects."""
     for node in ast.parse(source_of(module).read_text(encoding="utf-8")).body:
         if isinstance(node, (ast.ClassDef, ast.FunctionDef)) and node.name == name:
             return node

@@ -1,8 +1,8 @@
 """Writes the client without asyncio (client/_sync) from the one for asyncio (client/_async).
 
 Run it with python/.venv/bin/python whenever a file of python/vertifleet/client/_async has changed. The two
-differ only in words: every ``await`` falls away, and every name has its counterpart. So each method is
-written, typed and documented once.
+differ only in words: the script drops every ``await``, and replaces names by their counterparts. So each
+method is written, typed and documented once.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ WORDS = {
     r"\bimport asyncio\b": "import time as clock",
     r"The client for asyncio\..*": 'The client that waits for every answer."""',
 }
-"""Patterns, and what takes the place of what they match."""
+"""Patterns, and their replacements."""
 
 
 def counterpart(path: Path) -> str:
@@ -44,7 +44,7 @@ def counterpart(path: Path) -> str:
 
 
 def main() -> None:
-    """Writes the files, or with --check says whether they are as they would be written."""
+    """Writes the files, or with --check compares them with the generated ones."""
     for path in sorted((CLIENT / "_async").glob("*.py")):
         written = CLIENT / "_sync" / path.name
         source = counterpart(path)

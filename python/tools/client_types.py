@@ -1,8 +1,8 @@
 """Writes the types of the service's requests and answers, from the API's description, into client/types.py.
 
 Run it with python/.venv/bin/python whenever docs/src/reference/openapi.json has changed. Objects become
-TypedDicts, in an order in which each stands after those that it refers to. Objects that are told apart by a
-member with one value, as events are by ``type``, become a union of TypedDicts, one for each value.
+TypedDicts, each after those that it refers to. Objects that differ in a member with one value, as events do
+in ``type``, become a union of TypedDicts, one for each value.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from typing import Any
 PACKAGE = Path(__file__).resolve().parent.parent
 DESCRIPTION = PACKAGE.parent / "docs/src/reference/openapi.json"
 TYPES = PACKAGE / "vertifleet/client/types.py"
-WIDTH = 110
+WIDTH, COMMENT_WIDTH = 110, 100
 
 HEAD = '''"""The requests and answers of the dispatch service, as types for checkers and editors.
 
@@ -39,7 +39,7 @@ Schema = dict[str, Any]
 
 
 class Writer:
-    """Writes a definition for every schema that it is asked for, and first for those that it refers to."""
+    """Writes a definition for every requested schema, and first for those that it refers to."""
 
     def __init__(self, schemas: dict[str, Schema]) -> None:
         self.schemas = schemas
@@ -66,7 +66,7 @@ class Writer:
         return " | ".join(self._of_kind(kind, schema, name) for kind in kinds) or "object"
 
     def _referred(self, schema: Schema) -> tuple[str, Schema]:
-        """What a schema refers to, with its name.
+        """The schema that a schema refers to, with its name.
 
         Raises:
             SystemExit: if there is no such schema.
@@ -97,7 +97,7 @@ class Writer:
         return " | ".join(sorted(kinds, key="None".__eq__))
 
     def _objects(self, schema: Schema) -> list[Schema]:
-        """The objects that a schema stands for: every choice among its alternatives, put together."""
+        """The objects that a schema describes: every combination of its alternatives."""
         if "$ref" in schema:
             return self._objects(self._referred(schema)[1])
         if "oneOf" in schema:
@@ -136,10 +136,11 @@ class Writer:
                 lines.append(f"    {member}: {kind}")
                 lines += [docstring({"description": text}, member, 4)] if text else []
             return "\n".join(lines)
-        # Only this form can have members such as "from", and it has no place for docstrings of members.
+        # Only this form can have members such as "from", and it has no place for docstrings of
+        # members.
         lines = [f'{name} = TypedDict("{name}", {{']
         for member, kind, text in members:
-            wrapped = textwrap.wrap(text, WIDTH - 10)
+            wrapped = textwrap.wrap(text, COMMENT_WIDTH - 6)
             lines += [*(f"# {line}" for line in wrapped), f'"{member}": {kind},']
         return "\n".join([*lines, "})", docstring(schema, name, 0)])
 
@@ -171,13 +172,13 @@ def tags(schema: Schema) -> dict[str, str]:
 
 
 def ordered(schema: Schema) -> list[str]:
-    """The members of an object: first what tells it from others, then what it must have, then the rest."""
+    """The members of an object: first those that distinguish it, then required ones, then the rest."""
     required = schema.get("required", [])
     return list(dict.fromkeys([*tags(schema), *required, *schema["properties"]]))
 
 
 def variant_name(name: str, schema: Schema) -> str:
-    """The name of one object of a union: from what tells it from others, or else from what it must have."""
+    """The name of one object of a union, from the members that distinguish it, or else from required ones."""
     tag = tags(schema)
     if tag:
         return "".join(map(camel, tag.values())) + name
@@ -191,14 +192,14 @@ def camel(text: str) -> str:
 
 
 def described(schema: Schema) -> str:
-    """The description of a schema, or of the schema that it refers to with an addition."""
+    """The description of a schema: its own, or else that of the schema that it refers to."""
     alternatives = [*schema.get("oneOf", []), *schema.get("anyOf", [])]
     said = [schema, *alternatives]
     return next((" ".join(part["description"].split()) for part in said if part.get("description")), "")
 
 
 def docstring(schema: Schema, name: str, indent: int) -> str:
-    """What is said of a schema, as an indented docstring."""
+    """The description of a schema, as an indented docstring."""
     text = (described(schema) or f"{name}, as the service describes it.").replace("\\", "\\\\")
     lines = textwrap.wrap(text, WIDTH - indent - 6, break_long_words=False)
     if len(lines) > 1:
@@ -226,7 +227,7 @@ def contents(operation: Schema) -> Iterator[tuple[str, Schema]]:
 
 
 def written(api: Schema) -> str:
-    """The module with the types of all that the API's operations take and answer."""
+    """The module with the types of all requests and answers of the API."""
     writer = Writer(api["components"]["schemas"])
     for methods in api["paths"].values():
         for operation in methods.values():
@@ -238,7 +239,7 @@ def written(api: Schema) -> str:
 
 
 def main() -> None:
-    """Writes the types, or with --check says whether they are as they would be written."""
+    """Writes the types, or with --check compares them with the generated ones."""
     source = written(json.loads(DESCRIPTION.read_text(encoding="utf-8")))
     if "--check" in sys.argv:
         is_same = TYPES.exists() and TYPES.read_text(encoding="utf-8") == source

@@ -20,13 +20,13 @@ WIDTH = 110
 
 
 def docs(thing: Any) -> str:
-    """The docstring of a member of the extension module, without what Python gives to every object."""
+    """The docstring of a member of the extension module, unless it is the default of every object."""
     text = inspect.getdoc(thing) or ""
     return "" if text == inspect.getdoc(getattr(object, getattr(thing, "__name__", ""), None)) else text
 
 
 def docstring(text: str, indent: int) -> list[str]:
-    """The lines of a docstring, wrapped again."""
+    """The lines of a docstring, rewrapped."""
     room = WIDTH - indent
     paragraphs = [" ".join(part.split()) for part in text.split("\n\n")]
     wrapped = "\n\n".join(
@@ -40,7 +40,7 @@ def docstring(text: str, indent: int) -> list[str]:
 
 
 def described(source: str) -> str:
-    """The stub with docstrings; those that it has already are replaced."""
+    """The stub with docstrings; existing ones are replaced."""
     lines = source.splitlines()
     edits: list[tuple[int, int, int, str]] = []
 
@@ -67,7 +67,7 @@ def described(source: str) -> str:
     for first, last, indent, text in sorted(edits, reverse=True):
         header = re.match(r"(.*:) \.\.\.(\s*#.*)?$", lines[first - 1])
         if header and last >= first:
-            # The body stands on the line of the function's head.
+            # The body is on the line of the function's head.
             lines[first - 1 : last] = [header[1] + (header[2] or ""), *docstring(text, indent)]
         else:
             lines[first - 1 : last] = docstring(text, indent)
@@ -75,7 +75,7 @@ def described(source: str) -> str:
 
 
 def main() -> None:
-    """Writes the stub, or with --check says whether it is as it would be written."""
+    """Writes the stub, or with --check compares it with the generated one."""
     source = STUB.read_text(encoding="utf-8")
     if "--check" in sys.argv:
         sys.exit(0 if described(source) == source else "run python/tools/stub_docs.py")

@@ -1,10 +1,11 @@
-"""How Ray runs in these tests, and in the programs that they start."""
+"""The configuration of Ray in these tests, and in the programs that they start."""
 
 import os
 import secrets
 
 os.environ |= {
-    # Without an address, Ray joins the cluster that was started last here, which may be that of another test.
+    # Without an address, Ray joins the latest cluster on this machine, which may belong to another
+    # test.
     "RAY_ADDRESS": "local",
     # Without a token, Ray would write one into the user's home directory.
     "RAY_AUTH_MODE": "token",

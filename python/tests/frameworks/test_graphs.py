@@ -24,7 +24,7 @@ FULL = ["full_nodes", "full_aircraft", "clock", "vertiport_mask", "action_mask"]
 
 
 def the_script():
-    """The script that made the stored results, from which the Rust tests take theirs too."""
+    """The script that made the stored results, which the Rust tests also use."""
     spec = importlib.util.spec_from_file_location("make_reference", REFERENCE / "make_reference.py")
     script = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(script)
@@ -46,7 +46,7 @@ def saved(twin, path):
 
 
 @pytest.mark.parametrize("case", CASES, ids=NAMES)
-def test_outputs_and_gradients_are_those_that_the_program_is_held_to(case):
+def test_outputs_and_gradients_are_the_stored_ones_of_the_rust_tests(case):
     script = the_script()
     sizes, batch = dict(case["sizes"]), case["batch"]
     count = sizes.pop("vertiports")
@@ -163,7 +163,7 @@ def test_plain_layers_decide_a_day_as_the_program_does(tmp_path):
 
 
 @pytest.mark.parametrize("graph", [{}, {"adjacency": "profit"}])
-def test_padding_is_not_seen(graph):
+def test_padding_changes_no_output(graph):
     twin = drawn(GcapsFull(width=16, heads=2, graph=graph))
     edges = [twin.edges] if twin.edges else []
     envs = FleetVectorEnv(6, "random", observation=[*FULL, *edges])
@@ -211,7 +211,7 @@ def test_graphs_that_no_network_has_are_refused(graph, named):
     assert named in refused(GcapsFull, graph=graph)
 
 
-def test_edges_are_given_where_they_are_read_and_only_there(tmp_path):
+def test_edges_are_required_if_and_only_if_they_are_read(tmp_path):
     reads, knows = GcapsFull(width=8, heads=2, graph=Graph(adjacency="profit")), GcapsFull(width=8, heads=2)
     nodes, aircraft, clock, edges = (
         torch.rand(2, 5, 37),
@@ -242,7 +242,7 @@ def test_weights_of_any_size_may_come_from_networks_that_are_drawn(tmp_path):
         save(Gcaps(8, width=8, heads=2), path, network="random", steps=1)
 
 
-def test_libraries_that_name_sizes_may_name_a_graph():
+def test_a_graph_may_be_given_among_the_sizes():
     graph = {"adjacency": "similarity", "hops": 1}
     twin = of_sizes(Gcaps, 8, {"width": 8, "heads": 2, "graph": graph})
     assert twin.sizes == of_sizes(Gcaps, 8, twin.sizes).sizes

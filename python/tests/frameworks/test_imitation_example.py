@@ -55,7 +55,7 @@ class Calls:
         patch.chdir(folder)
 
     def __call__(self, checkpoint: Path, *arguments: str) -> list[str]:
-        """What it says of each pass, without how long that took."""
+        """The output of each pass, without its duration."""
         self._patch.setattr(sys, "argv", ["imitation.py", str(checkpoint), *ARGUMENTS, *arguments])
         self._main()
         lines = self._said.readouterr().out.splitlines()
@@ -90,7 +90,7 @@ def test_a_run_that_stopped_goes_on_to_the_same_weights(
     assert (header["network"], header["settings"], header["seed"]) == ("paper", None, 1)
 
 
-def test_it_learns_what_the_roll_outs_say(checkpoints: dict[str, Path], calls: Calls) -> None:
+def test_it_learns_the_choices_of_the_roll_outs(checkpoints: dict[str, Path], calls: Calls) -> None:
     learned = calls(checkpoints["complete"], "--passes", "60", "--learning-rate", "0.01")
     lifts = [float(line.rsplit(" ", 1)[1]) for line in learned]
     assert lifts[-1] > max(lifts[0], 0.0)

@@ -1,4 +1,4 @@
-"""Every notebook runs from beginning to end, and the book shows it as it is."""
+"""Every notebook runs from beginning to end, and the book shows its current output."""
 
 from __future__ import annotations
 

@@ -146,7 +146,7 @@ def test_runners_with_seeds_that_follow_each_other_play_other_days(paper):
     assert len(days(5) | days(6) | days(7)) == 18
 
 
-def test_settings_are_said_in_rllibs_words():
+def test_settings_become_those_of_rllib():
     paper = vertifleet.settings("paper")
     config = ppo_config("paper", "gcaps", paper, env_runners=8)
     assert (config.num_env_runners, config.num_envs_per_env_runner) == (8, 5)
@@ -283,7 +283,7 @@ def header_of(config, path, **arguments):
     return vertifleet.Model.read(path).header
 
 
-def test_a_run_is_said_in_the_words_of_the_program(tmp_path):
+def test_a_run_has_the_settings_of_the_program(tmp_path):
     config = ppo_config("paper", "gcaps", TINY | {"learning_rate": np.float32(0.01)}).debugging(
         seed=np.int64(5)
     )
@@ -308,7 +308,7 @@ UNSAYABLE = {
 
 
 @pytest.mark.parametrize("how", UNSAYABLE)
-def test_what_no_setting_says_is_left_open(how, tmp_path):
+def test_a_run_that_no_setting_describes_has_no_settings(how, tmp_path):
     config = ppo_config("paper", "gcaps", TINY).training(**UNSAYABLE[how])
     header = header_of(config, tmp_path / "mine.safetensors")
     assert (header["network"], header["settings"], header["seed"], header["steps"]) == (

@@ -51,7 +51,7 @@ def tensors(observations):
     return {name: torch.from_numpy(column) for name, column in observations.items()}
 
 
-def test_days_side_by_side_are_an_environment_with_masks():
+def test_parallel_days_are_an_environment_with_masks():
     days = FleetVecEnv(NETWORK, 3)
     days.seed(5)
     observations = days.reset()
@@ -79,7 +79,7 @@ def test_the_default_policy_learns_from_every_registered_observation(variant):
     assert info["action_mask"][choice] == 1
 
 
-def test_days_side_by_side_show_the_parts_and_days_that_are_asked_for():
+def test_parallel_days_have_the_requested_parts_and_split():
     days = FleetVecEnv(NETWORK, 2, observation=["time", "place"], split="validation")
     observations = days.reset()
     assert set(observations) == {"time", "place", "action_mask"}
@@ -125,7 +125,7 @@ def play_until_one_is_over(days):
             return observations, np.array(rewards), over, infos
 
 
-def test_a_day_that_is_over_makes_room_for_the_next_and_tells_how_it_went():
+def test_the_next_day_begins_when_one_ends_whose_infos_have_its_reward():
     days = FleetVecEnv(NETWORK, 2, "dense", reward_scale=100.0)
     observations, rewards, over, infos = play_until_one_is_over(days)
     ended = int(over.argmax())
@@ -134,7 +134,7 @@ def test_a_day_that_is_over_makes_room_for_the_next_and_tells_how_it_went():
     assert told["episode"]["r"] == pytest.approx(rewards[:, ended].sum() / 100.0, rel=1e-4)
     assert told["TimeLimit.truncated"] is False
     assert told["terminal_observation"].keys() == observations.keys()
-    # No time was left of the day that ended; the observation is of the new day.
+    # The day that ended had no time left; the observation belongs to the new day.
     assert told["terminal_observation"]["clock"] == 0.0
     assert observations["clock"][ended] == 1.0
 
@@ -201,7 +201,7 @@ def test_what_was_trained_decides_in_the_program_as_it_does_here(kind, tmp_path)
         seen, *_ = environment.step(int(choice))
 
 
-def test_a_weight_file_says_what_it_was_trained_with(tmp_path):
+def test_a_weight_file_contains_its_training_settings(tmp_path):
     path = tmp_path / "trained.safetensors"
     days = FleetVecEnv(NETWORK, 4, "dense", reward_scale=100.0)
     model = learner("mlp", days)
@@ -266,7 +266,7 @@ def test_a_falling_learning_rate_falls_to_nothing():
     assert not math.isnan(rate(0.25))
 
 
-def test_infeasible_actions_and_ended_days_are_told():
+def test_infos_report_infeasible_actions_and_ended_days():
     days = FleetVecEnv(NETWORK, 2, reward_scale=100.0)
     observations = days.reset()
     told = 0
@@ -315,7 +315,7 @@ def learned(kind="mlp", steps=64, days=None, **changed):
     return model.learn(steps)
 
 
-def test_numbers_of_any_kind_are_said_as_the_numbers_that_they_are(tmp_path):
+def test_headers_have_plain_numbers_for_numbers_of_any_type(tmp_path):
     days = FleetVecEnv(NETWORK, 2, reward_scale=np.float32(3.0))
     numbers = {"n_steps": np.int64(32), "gamma": np.float32(0.9), "batch_size": np.int32(16)}
     model = learned(steps=1e2, days=days, **numbers)
@@ -340,7 +340,7 @@ UNSAYABLE = {
 
 
 @pytest.mark.parametrize("how", UNSAYABLE)
-def test_what_no_setting_says_is_left_open(how, tmp_path):
+def test_a_run_that_no_setting_describes_has_no_settings(how, tmp_path):
     header = header_after(learned(**UNSAYABLE[how]), tmp_path / "mine.safetensors")
     assert header["settings"] is None
     assert (header["seed"], header["steps"]) == (3, 64)
@@ -359,7 +359,7 @@ def test_normalised_rewards_have_no_settings_and_rewards_as_they_are_have(tmp_pa
         assert (settings is None) == norm_reward
 
 
-def test_a_model_that_was_loaded_says_no_settings_until_it_learns(tmp_path):
+def test_a_loaded_model_has_no_settings_until_it_learns(tmp_path):
     learned().save(tmp_path / "model.zip")
     days = FleetVecEnv(NETWORK, 2, "dense", reward_scale=50.0)
     again = MaskablePPO.load(tmp_path / "model.zip", env=days)
@@ -369,7 +369,7 @@ def test_a_model_that_was_loaded_says_no_settings_until_it_learns(tmp_path):
     assert (settings["reward"], settings["reward_scale"]) == ("dense", 50.0)
 
 
-def test_a_falling_rate_that_fell_twice_is_left_open(tmp_path):
+def test_a_rate_that_fell_twice_has_no_schedule(tmp_path):
     falling, constant = learned(), learned(learning_rate=1e-4)
     for model in (falling, constant):
         model.learn(64, reset_num_timesteps=False)
@@ -384,7 +384,7 @@ def test_the_network_is_the_one_trained_on_and_may_be_named(tmp_path):
         assert header_after(model, tmp_path / "mine.safetensors", **arguments)["network"] == "paper"
 
 
-def test_refusals_say_what_differs_and_what_helps(tmp_path):
+def test_refusals_name_the_difference_and_the_remedy(tmp_path):
     model, path = learned(), tmp_path / "mine.safetensors"
     with pytest.raises(Error, match="texts of their files differ"):
         export(model, path, network=NETWORK.changed({"fleet.0.count": 30}))
@@ -394,7 +394,7 @@ def test_refusals_say_what_differs_and_what_helps(tmp_path):
     assert not path.exists()
 
 
-def test_weights_from_a_file_that_were_trained_anew_keep_nothing_of_its_settings(tmp_path):
+def test_newly_trained_weights_drop_the_settings_of_their_file(tmp_path):
     model, path = learned(max_grad_norm=math.inf), tmp_path / "mine.safetensors"
     model.policy.twin.header = vertifleet.Model.shipped("mlp").header
     header = header_after(model, path)
@@ -416,7 +416,7 @@ def test_what_is_not_feasible_is_not_chosen_without_masks_either(kind):
         seen, *_ = days.step(choices)
 
 
-def test_evaluations_tell_the_reward_of_the_day_with_masks_or_without(tmp_path):
+def test_evaluations_report_the_reward_of_the_day_with_masks_or_without(tmp_path):
     day = NETWORK.draw(1, "validation")
     model = learned(days=FleetVecEnv(NETWORK, 2, "dense", reward_scale=100.0))
     export(model, tmp_path / "mine.safetensors")
@@ -430,7 +430,7 @@ def test_evaluations_tell_the_reward_of_the_day_with_masks_or_without(tmp_path):
         assert mean == pytest.approx(expected, rel=1e-5)
 
 
-def test_a_callback_that_evaluates_tells_the_reward_of_the_day():
+def test_an_evaluation_callback_reports_the_reward_of_the_day():
     days = FleetVecEnv(NETWORK, 2, reward_scale=1e6)
     looking = MaskableEvalCallback(days, n_eval_episodes=2, eval_freq=32, verbose=0)
     learner("mlp", FleetVecEnv(NETWORK, 2)).learn(64, callback=looking)
@@ -448,14 +448,14 @@ def test_a_callback_that_evaluates_tells_the_reward_of_the_day():
         {"features_extractor_kwargs": {"widht": 64}},
     ],
 )
-def test_layers_that_a_network_has_not_are_refused(asked):
+def test_layers_that_the_network_does_not_have_are_refused(asked):
     name = next(iter(asked.get("features_extractor_kwargs", asked)))
     with pytest.raises(Error, match=name) as refused:
         MaskablePPO(GcapsPolicy, FleetVecEnv(NETWORK, 2), policy_kwargs=asked)
     assert refused.value.code == "V451"
 
 
-def test_an_environment_that_shows_something_else_is_refused():
+def test_an_environment_with_other_observations_is_refused():
     flat = FlattenObservation(gymnasium.make("vertifleet/Fleet-v0"))
     for environment in (flat, gymnasium.make("CartPole-v1")):
         with pytest.raises(Error, match="nodes, aircraft, clock, action_mask") as refused:
@@ -498,7 +498,8 @@ def test_the_example_asks_first_whether_the_file_can_be_written(tmp_path):
 
 
 def test_the_example_saves_what_was_learned_when_it_is_stopped(tmp_path):
-    # Ctrl-C comes at the fourth decision of each of the 40 days; checkpoints come after every second one.
+    # Ctrl-C comes at the fourth decision of each of the 40 days; checkpoints come after every
+    # second one.
     stopped = f"""
 import runpy, sys
 from stable_baselines3.common.callbacks import CheckpointCallback
@@ -522,7 +523,7 @@ runpy.run_path(sys.argv[0], run_name="__main__")
     assert len(list((tmp_path / "mine.checkpoints").iterdir())) == 2
 
 
-def test_policies_take_one_thread_unless_told_otherwise(monkeypatch):
+def test_policies_use_one_thread_unless_omp_num_threads_is_set(monkeypatch):
     days = FleetVecEnv("paper", 2)
     torch.set_num_threads(2)
     monkeypatch.setenv("OMP_NUM_THREADS", "2")

@@ -1,4 +1,4 @@
-"""The networks in PyTorch: what they compute, what they start from, what they decide."""
+"""The networks in PyTorch: their outputs, their initial weights and their decisions."""
 
 import math
 
@@ -87,7 +87,7 @@ def mlp_to_the_letter(w, nodes, aircraft, clock):
 
 
 @pytest.mark.parametrize("kind", ["gcaps", *OF_ANY_SIZE])
-def test_gcaps_is_equations_18_to_21_to_the_letter(kind):
+def test_gcaps_equals_a_literal_reading_of_equations_18_to_21(kind):
     twin = small(kind)
     expected = gcaps_to_the_letter(twin.state_dict(), 4, *inputs(twin))
     torch.testing.assert_close(twin(*inputs(twin)), expected, rtol=1e-9, atol=1e-9)
@@ -148,7 +148,7 @@ def test_every_weight_learns(kind):
 
 
 @pytest.mark.parametrize("kind", SMALL)
-def test_the_gradient_is_that_of_the_letter(kind):
+def test_the_gradient_equals_that_of_the_literal_equations(kind):
     twin = small(kind)
     logits, values = twin(*inputs(twin))
     (logits.sin().sum() + values.sum()).backward()
@@ -289,7 +289,7 @@ def test_sizes_may_be_numbers_of_numpy(kind):
 
 
 @pytest.mark.parametrize("size", [True, np.True_, 2.0, "2", None])
-def test_what_is_no_whole_number_is_no_size(size):
+def test_a_size_must_be_a_whole_number(size):
     with pytest.raises(vertifleet.Error) as refused:
         Gcaps(size, width=8, heads=2)
     assert refused.value.code == "V451"

@@ -166,7 +166,7 @@ def test_a_single_observation_is_decided_as_in_a_batch():
     assert singly == decisions.tolist()
 
 
-def test_only_what_is_said_anew_changes_in_a_header(tmp_path):
+def test_only_given_arguments_change_a_header(tmp_path):
     twin = load(SHIPPED["gcaps"])
     save(twin, tmp_path / "trained-on.safetensors", steps=7)
     found = load(tmp_path / "trained-on.safetensors").header
@@ -266,7 +266,7 @@ def test_what_is_refused_is_not_written(tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["gcaps", "mlp"])
-def test_what_is_not_known_of_weights_is_left_open(kind, tmp_path):
+def test_unknown_origins_stay_empty_in_the_header(kind, tmp_path):
     path = tmp_path / "weights.safetensors"
     save(fresh(kind), path, network=NETWORK, steps=5)
     header = load(path).header

@@ -81,7 +81,8 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         self._alone = Alone()
         self._latest = 0
         self._generators: list[np.random.Generator] = []
-        # Numbers of the next days, drawn early so that a day can begin in the step in which one ends.
+        # Numbers of the next days, drawn early so that a day can begin in the step in which one
+        # ends.
         self._numbers = np.zeros(num_envs, np.uint64)
 
     def reset(

@@ -121,7 +121,8 @@ def _settings_of(model: MaskablePPO, days: VecEnv) -> dict[str, Any] | None:
 
 def _learned_otherwise(model: MaskablePPO, days: VecEnv) -> bool:
     """Whether the model learned from other days, or in a way that no setting expresses."""
-    # stable-baselines3 drops the last observation when a model, loaded or not, gets another environment.
+    # stable-baselines3 drops the last observation when a model, loaded or not, gets another
+    # environment.
     other_days = model._last_obs is None
     normalised = unwrap_vec_normalize(days)
     other_rewards = normalised is not None and normalised.norm_reward
