@@ -1,5 +1,5 @@
-//! Writes planners' files to begin fuzzing with, a folder for each reader: `cargo run --example
-//! planner_seeds -- FOLDER`.
+//! Writes planners' files as seeds for fuzzing, in a folder for each reader:
+//! `cargo run --example planner_seeds -- FOLDER`.
 
 use std::fs;
 use std::path::PathBuf;

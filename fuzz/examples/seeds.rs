@@ -1,5 +1,5 @@
-//! Writes weight files to begin fuzzing with, the smallest there are of each kind: `cargo run
-//! --example seeds -- FOLDER`.
+//! Writes weight files as seeds for fuzzing, the smallest of each kind:
+//! `cargo run --example seeds -- FOLDER`.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use vertifleet_core::{Network, World};
 use vertifleet_learn::nn::{Architecture, GcapsSettings, MlpSettings};
 use vertifleet_learn::{TrainingRequest, TrainingSettings};
 
-/// A network of three vertiports, as many as the day of the fuzzed policies has.
+/// A network of three vertiports, like the day of the fuzzed policies.
 const NETWORK: &str = include_str!("../../crates/core/tests/data/small.toml");
 
 fn main() {

@@ -1,5 +1,5 @@
-//! The reader of fares and costs of pairs (CSV, Parquet) on any bytes: it never panics, and days
-//! can be drawn from every network that it makes.
+//! Imports fares and costs of pairs (CSV, Parquet) from any bytes. The reader must never panic, and
+//! days can be drawn from every network that it makes.
 
 #![no_main]
 

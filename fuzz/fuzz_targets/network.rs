@@ -1,5 +1,5 @@
-//! The network reader on any text: it never panics, and every day drawn from what it accepts is a
-//! valid scenario.
+//! Reads networks from any text. The reader must never panic, and every day drawn from a network
+//! that it accepts must be a valid scenario.
 
 #![no_main]
 

@@ -1,8 +1,8 @@
-//! An import in which one file is any bytes and all others are good, for the targets that fuzz the
-//! readers of planners' files.
+//! An import in which one file has any bytes and all others are valid, for the targets that fuzz
+//! the readers of planners' files.
 //!
-//! Readers take a file for GeoJSON or Parquet by how it begins, where its name does not say; so one
-//! target covers all forms of its file.
+//! If the name of a file does not reveal its format, readers detect GeoJSON and Parquet by the
+//! first bytes; so one target covers all formats of its file.
 
 use std::fs;
 use std::path::PathBuf;
@@ -42,8 +42,8 @@ static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
     folder
 });
 
-/// Imports with these bytes in the place of one file, and returns whether a network came of it. The
-/// import may refuse them, but must not panic; a network that it makes has days.
+/// Imports with these bytes in place of one file, and returns whether that made a network. The
+/// import may refuse the bytes, but must not panic; days can be drawn from a network that it makes.
 pub fn import_with(any: &str, bytes: &[u8]) -> bool {
     stop_at_panics_of_ours();
     let path = FOLDER.join("any");
@@ -81,9 +81,9 @@ pub fn import_with(any: &str, bytes: &[u8]) -> bool {
     }
 }
 
-/// libFuzzer ends the process at every panic, also at those of the Parquet library, which its
-/// reader turns into errors. So only panics of our own end it at once; any other that is not caught
-/// still ends the run.
+/// libFuzzer ends the process at every panic, including those of the Parquet library, which its
+/// reader turns into errors. With this hook, only panics of this project's crates end it at once;
+/// any other that is not caught still ends the run.
 fn stop_at_panics_of_ours() {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {

@@ -1,6 +1,6 @@
-//! The service on bytes that stand in the place of every part of a request: each request is
-//! answered, and every day stays one that can be described, played on, and read again from the
-//! store as it is in memory.
+//! Sends bytes to the service in place of every part of a request. Each request must be answered.
+//! Every day must stay valid: it can be described, played on, and read from the store in the state
+//! in memory.
 
 #![no_main]
 
@@ -9,7 +9,7 @@ use std::sync::{LazyLock, Mutex};
 use libfuzzer_sys::fuzz_target;
 use vertifleet_serve::AnyRequest;
 
-/// One service for all inputs, since each of them leaves it as it was.
+/// One service for all inputs, since each of them leaves it unchanged.
 static SERVICE: LazyLock<Mutex<AnyRequest>> = LazyLock::new(|| {
     let folder = std::env::temp_dir().join(format!("vertifleet-fuzz-{}", std::process::id()));
     Mutex::new(AnyRequest::open(&folder))

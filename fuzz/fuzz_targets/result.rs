@@ -1,5 +1,5 @@
-//! The reader of result files on any bytes: it never panics, and what it accepts can be verified,
-//! with findings and without a panic.
+//! Reads result files from any bytes. The reader must never panic, and every result that it accepts
+//! can be verified, with findings and without a panic.
 
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! The scenario reader on any bytes: it never panics, and what it accepts reads back as it is
-//! written.
+//! Reads scenarios from any bytes. The reader must never panic, and accepted scenarios must read
+//! back as written.
 
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! The trace reader on any bytes: it never panics, what it accepts reads back as it is written, and
-//! the checker has a verdict on every schedule.
+//! Reads traces from any bytes. The reader must never panic, accepted traces must read back as
+//! written, and the checker must return a verdict on every schedule.
 
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! The weight readers on any bytes: they never panic, what they accept reads back as it is written,
-//! and a policy that was read decides from the mask, with any weights.
+//! Reads weight files from any bytes. The readers must never panic, and accepted weights must read
+//! back as written. A policy that was read decides from the mask, with any weights.
 
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! The reader of zones (CSV, Parquet, GeoJSON) on any bytes: it never panics, and days can be drawn
-//! from every network that it makes.
+//! Imports zones (CSV, Parquet, GeoJSON) from any bytes. The reader must never panic, and days can
+//! be drawn from every network that it makes.
 
 #![no_main]
 
