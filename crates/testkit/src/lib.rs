@@ -1,6 +1,6 @@
-//! Test support that several crates share. First of all these are days: strategies for property
-//! tests, days drawn from a number, and days of `paper`. For the tests of the service there are a
-//! database server and invalid texts.
+//! Shared helpers of the tests of several crates. Most are days: strategies for property tests,
+//! days drawn from a number, and days of `paper`. For the tests of the service there are a database
+//! server and corrupted texts.
 //!
 //! This crate builds on `vertifleet-core` alone and is a dependency of tests only.
 //!

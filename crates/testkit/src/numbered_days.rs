@@ -13,11 +13,11 @@ use vertifleet_core::{
 /// The largest size that a day may have.
 #[derive(Debug, Clone, Copy)]
 pub struct Size {
-    /// Most vertiports of a day.
+    /// Largest number of vertiports of a day.
     pub vertiports: usize,
-    /// Most aircraft of a day.
+    /// Largest number of aircraft of a day.
     pub fleet: usize,
-    /// Most hours of operations of a day, to which up to half an hour is added.
+    /// Largest number of hours of operations of a day, to which up to half an hour is added.
     pub hours: u32,
 }
 

@@ -8,10 +8,10 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// A server has so long to start, also after a crash.
+/// Time limit for a server to start, even after a crash.
 const START_TIMEOUT: Duration = Duration::from_secs(20);
 
-/// A separate database server on a free port. It ends when it is dropped.
+/// A separate database server on a separate port. It ends when it is dropped.
 #[derive(Debug)]
 pub struct Postgres {
     folder: tempfile::TempDir,
@@ -42,12 +42,12 @@ impl Postgres {
         Self { folder, port, server }
     }
 
-    /// The address of the database, in the form that a service takes.
+    /// The address of the database, as an argument of a service.
     pub fn url(&self) -> String {
         format!("postgres://postgres@127.0.0.1:{}/postgres", self.port)
     }
 
-    /// Ends the server as a crash would: what was not committed is lost.
+    /// Ends the server like a crash: uncommitted data is lost.
     pub fn crash(&mut self) {
         self.signal("-QUIT");
         let _ = self.server.wait();
@@ -61,14 +61,13 @@ impl Postgres {
         self.server = serve(self.folder.path(), self.port);
     }
 
-    /// Stops all processes of the server where they are, so that its connections stay open and
-    /// nothing is answered.
+    /// Suspends all processes of the server, so that its connections stay open and do not answer.
     pub fn freeze(&self) {
         self.signal("-STOP");
         self.signal_connections("-STOP");
     }
 
-    /// Lets them continue.
+    /// Resumes them.
     pub fn thaw(&self) {
         self.signal_connections("-CONT");
         self.signal("-CONT");
@@ -76,12 +75,12 @@ impl Postgres {
         let _ = Command::new("kill").args(["-CONT", &self.server.id().to_string()]).status();
     }
 
-    /// Connections have separate processes.
+    /// Each connection has a separate process.
     fn signal_connections(&self, signal: &str) {
         let pid = self.pid();
         let children = std::fs::read_to_string(format!("/proc/{pid}/task/{pid}/children"));
         let children = children.unwrap_or_default();
-        // A connection may have ended meanwhile.
+        // A connection may have ended in the meantime.
         let _ = Command::new("kill").arg(signal).args(children.split_whitespace()).output();
     }
 
@@ -107,7 +106,7 @@ impl Drop for Postgres {
     }
 }
 
-/// The newest server that is installed.
+/// The newest installed server.
 fn programs() -> PathBuf {
     let versions = std::fs::read_dir("/usr/lib/postgresql").into_iter().flatten();
     let mut found: Vec<PathBuf> = versions.filter_map(|entry| Some(entry.ok()?.path())).collect();
@@ -116,7 +115,7 @@ fn programs() -> PathBuf {
 }
 
 /// A program of the server. It refuses to run as root, so root runs it as the user that the package
-/// makes.
+/// creates.
 fn command(program: &str) -> Command {
     let path = programs().join(program);
     if !is_root() {

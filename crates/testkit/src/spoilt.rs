@@ -1,10 +1,10 @@
-//! Good texts made bad: cut, changed or repeated somewhere, the same every time.
+//! Corrupts valid texts: cuts, changes or repeats a part, the same in every run.
 
 use std::hash::{BuildHasher as _, BuildHasherDefault, DefaultHasher};
 
-/// What stands between the parts of JSON and of queries.
+/// The separators of JSON and of queries.
 const MARKS: &[u8] = b"{}[]\",:&=%0-9e";
-/// Numbers at which readers stumble.
+/// Numbers that readers often handle wrongly.
 const NUMBERS: [&str; 12] = [
     "0",
     "-1",
@@ -20,7 +20,7 @@ const NUMBERS: [&str; 12] = [
     "99999999999999999999",
 ];
 
-/// A number that looks random and is the same every time.
+/// A number that looks random and is the same in every run.
 pub fn draw(seed: u32, at: u32) -> usize {
     let hash = BuildHasherDefault::<DefaultHasher>::default().hash_one((seed, at));
     usize::try_from(hash >> 33).expect("31 bits")
