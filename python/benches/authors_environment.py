@@ -46,13 +46,14 @@ class AuthorsEnvironment:
 
     def _start_day(self) -> None:
         self._observation = self._environment.reset()
-        # The log of a day would mix numbers with this one list of one number, which numpy takes no longer.
+        # The log of a day would mix numbers with this one list of one number, which numpy no longer
+        # accepts.
         self._environment.current_time = self._environment.current_time[0]
 
 
 def _environment_class(folder: Path) -> Any:
-    # Gymnasium has what they use of gym. The other two are imported for a method that is never called; the
-    # first of them is not in their repository.
+    # Gymnasium has what they use of gym. The other two are imported for a method that is never
+    # called; the first of them is not in their repository.
     sys.modules["gym"] = gymnasium
     sys.modules["gym.spaces"] = gymnasium.spaces
     sys.modules["topology"] = ModuleType("topology")

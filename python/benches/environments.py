@@ -2,9 +2,10 @@
 
 A step is one decision of one aircraft: a random feasible action is drawn from the mask, the environment takes
 it, and makes the next observation and mask. All of that is counted, and so is the start of a new day whenever
-one ends; the native environments draw that day then, the plain one takes it from days drawn beforehand. The
-call of a batch that restarts an ended day takes no decision there and counts as no step. The single native
-environment is as `gymnasium.make` gives it, with its wrappers; the plain one has none.
+one ends; the native environments draw that day then, the plain one takes it from days drawn beforehand. A
+call of a batch that begins the day after an ended one takes no decision there and does not count as a step.
+The single native environment is the one that `gymnasium.make` returns, with its wrappers; the plain one has
+none.
 
     python -m pip install ./python
     python python/benches/environments.py
@@ -38,7 +39,7 @@ class Player(Protocol):
     """Plays days with random feasible actions."""
 
     def step(self) -> int:
-        """Takes the next decision, or one in each day of a batch; says how many."""
+        """Takes the next decision, or one in each day of a batch; returns their number."""
         ...
 
 
@@ -54,7 +55,8 @@ class Batch:
         self._to_start = 0
 
     def step(self) -> int:
-        # Random numbers below 1, and 1 more where feasible: the largest is a feasible one, each as likely.
+        # Random numbers below 1, plus 1 for feasible choices: the largest is a feasible one, each
+        # with the same probability.
         draws = self._draws.random(self._mask.shape, np.float32)
         observation, _, over, _, _ = self._environment.step((draws + self._mask).argmax(1))
         self._mask = observation["action_mask"]

@@ -1,11 +1,11 @@
-"""Steps a second of this project's batch environment and those of two libraries for routing, by turns.
+"""Steps per second of this project's batch environment and of two routing libraries, measured in turn.
 
-Their worlds are other ones (a vehicle that visits customers), so this compares what a learner waits for, and
-not the work done. Jumanji and RL4CO need other versions of their dependencies, so each has its own Python:
+Their worlds differ (a vehicle that visits customers), so this compares a learner's waiting time, and not the
+work done. Jumanji and RL4CO need other versions of their dependencies, so each has its own Python:
 
     python python/benches/peers.py --peer jumanji=JUMANJI/bin/python --peer rl4co=RL4CO/bin/python
 
-A step is a decision of one of 256 instances side by side, with random feasible actions, in a loop in Python.
+A step is a decision of one of 256 parallel instances, with random feasible actions, in a loop in Python.
 "jumanji CVRP in one call" has the loop compiled too, which a learner written in JAX can have.
 """
 

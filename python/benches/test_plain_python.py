@@ -51,7 +51,8 @@ def with_little_demand(scenario: Scenario) -> Scenario:
     return scenario | {"demand": demand}
 
 
-# Days of the networks themselves, and days on which rules bind that they leave slack: network, seed, change.
+# Days of the networks themselves, and days on which rules bind that they leave slack: network,
+# seed, change.
 DAYS: dict[str, tuple[str, int, Callable[[Scenario], Scenario]]] = {
     **{f"paper-{seed}": ("paper", seed, as_drawn) for seed in (1, 2, 3)},
     **{f"new-york-{seed}": ("new-york", seed, as_drawn) for seed in (1, 2)},

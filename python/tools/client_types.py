@@ -140,7 +140,7 @@ class Writer:
         # members.
         lines = [f'{name} = TypedDict("{name}", {{']
         for member, kind, text in members:
-            wrapped = textwrap.wrap(text, COMMENT_WIDTH - 6)
+            wrapped = textwrap.wrap(text, COMMENT_WIDTH - 10)
             lines += [*(f"# {line}" for line in wrapped), f'"{member}": {kind},']
         return "\n".join([*lines, "})", docstring(schema, name, 0)])
 

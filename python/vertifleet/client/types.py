@@ -472,7 +472,8 @@ BookedEvent = TypedDict(
         "to": str,
         # Their number.
         "passengers": int,
-        # When it happened or became known. Without it, that is now: the latest time that was reported.
+        # When it happened or became known. Without it, that is now: the latest time that was
+        # reported.
         "time": NotRequired[Moment | None],
     },
 )
@@ -490,7 +491,8 @@ CancelledEvent = TypedDict(
         "to": str,
         # Their number.
         "passengers": int,
-        # When it happened or became known. Without it, that is now: the latest time that was reported.
+        # When it happened or became known. Without it, that is now: the latest time that was
+        # reported.
         "time": NotRequired[Moment | None],
     },
 )
