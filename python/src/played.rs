@@ -131,7 +131,7 @@ pub(crate) fn simulate(
             calls.raised().map_or(played, Err)
         }
         _ => {
-            let message = "a function takes network=, as which it sees the day, and nothing else does; a name alone takes model=";
+            let message = "only a function takes network=, whose observations it gets; only a name takes model=";
             Err(Failure::argument(message.to_owned()).into())
         }
     }

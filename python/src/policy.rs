@@ -91,7 +91,7 @@ pub(crate) fn find_policy(
     let seed = seed.of("seed")?;
     let spec = PolicySpec::parse(name)?;
     if spec.is_planner() {
-        let rule = "the planner knows the whole day, and cannot be asked about one decision";
+        let rule = "the planner plans the whole day in advance, and cannot take a single decision";
         return Err(Failure::hinted(rule.to_owned(), "vertifleet.plan plans a day".to_owned()));
     }
     let resolved = spec.resolve(source.as_ref(), ResolveFor::DaysOf(network), seed)?;

@@ -197,7 +197,7 @@ impl TrainingWatch for Shown {
     }
 
     fn could_not_write(&self, error: &Error) {
-        let warning = format!("{error}; the training goes on");
+        let warning = format!("{error}; the training continues");
         // If the warning raises an exception, the training still continues.
         let _ = Python::attach(|py| warn(py, &warning));
     }

@@ -103,7 +103,7 @@ RULES_IN_WORDS = [
     "name a `network` or give a `scenario`",
     "a study needs either network or toml",
     "`seed` goes with `network`",
-    "what the service says of decisions",
+    "only the service sets",
     "leads from a vertiport to itself",
     "`time_zone` goes with `date`",
     "a day with a `date` needs a `time_zone`",

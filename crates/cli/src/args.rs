@@ -30,7 +30,8 @@ pub(crate) use service::{OperateArguments, ServeAction, ServeArguments, Speed, T
 
 /// The help of arguments that several commands take.
 const NETWORK: &str = "Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER";
-const FORCE: &str = "Replace a file that this program did not write or that is read-only; never what the command reads";
+const FORCE: &str =
+    "Replace a file that this program did not write or that is read-only; never an input file";
 const STEP: &str = "Longest price interval of the bound, minutes, 1 to 60; a shorter one never loosens the bound, and takes longer";
 const SPLIT: &str = "Range of days: comparison, for results; validation, to choose settings and weights; or training. With the latter two, the seed is the number of the first day";
 
@@ -145,7 +146,7 @@ pub(crate) enum Command {
     #[cfg(not(feature = "service"))]
     #[command(hide = true, alias = "operate")]
     Serve {
-        /// Whatever the service would take
+        /// All arguments, which this build ignores
         #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
         _ignored: Vec<String>,
     },
@@ -322,7 +323,7 @@ pub(crate) struct CompareArguments {
     pub(crate) days_from: Vec<PathBuf>,
     /// Policies, separated by commas: random, greedy, prices, rolling, gcaps, mlp, gcaps-x,
     /// gcaps-x:rollouts=K (which rolls its K best choices out), gcaps-full, names given by --model,
-    /// and plan, the planner, which knows the days beforehand
+    /// and plan, the planner, which knows the days in advance
     #[arg(long, value_delimiter = ',', required = true, value_parser = parse_name)]
     pub(crate) policies: Vec<String>,
     /// Number of days, 1 to 1000000
@@ -386,8 +387,8 @@ pub(crate) struct PresentedArguments {
     /// Write table, figures and a report page into this folder, in place of an earlier report
     #[arg(long, value_name = "DIR")]
     pub(crate) report: Option<PathBuf>,
-    /// Replace a read-only report, and move any other folder of that name to DIR.old; never what
-    /// the command reads
+    /// Replace a read-only report, and move any other folder of that name to DIR.old; never an
+    /// input file
     #[arg(long)]
     pub(crate) force: bool,
 }

@@ -38,7 +38,7 @@ pub(crate) fn end_on_interrupt() -> Result<(), Failure> {
 
 /// The same for a study whose finished parts are always on disk.
 pub(crate) fn end_study_on_interrupt() -> Result<(), Failure> {
-    end_saying("stopped; what is finished is kept, and the same command goes on from there")
+    end_saying("stopped; finished parts are kept, and the same command continues")
 }
 
 fn end_saying(text: &'static str) -> Result<(), Failure> {

@@ -53,12 +53,13 @@ pub(crate) fn parse_vertiport(text: &str) -> Result<NewVertiport, String> {
     }) else {
         return Err("expected ID,LATITUDE,LONGITUDE or ID,LATITUDE,LONGITUDE,STANDS".to_owned());
     };
-    let number = |text: &str| text.parse().map_err(|_| format!("{text:?} is no number of degrees"));
+    let number =
+        |text: &str| text.parse().map_err(|_| format!("{text:?} is not a number of degrees"));
     Ok(NewVertiport {
         id: id.to_owned(),
         latitude: number(latitude)?,
         longitude: number(longitude)?,
-        stands: stands.parse().map_err(|_| format!("{stands:?} is no number of stands"))?,
+        stands: stands.parse().map_err(|_| format!("{stands:?} is not a number of stands"))?,
     })
 }
 

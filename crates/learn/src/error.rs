@@ -114,7 +114,7 @@ pub enum Error {
     /// Fix: train with a smaller `learning_rate`, from the last checkpoint or from the start. The
     /// checkpoint is from before the update that failed.
     #[error(
-        "training diverged: after update or round {update}, a weight is no finite number any more"
+        "training diverged: after update or round {update}, a weight is infinite or not a number"
     )]
     Diverged {
         /// The update of PPO, or the round of imitation, counted from 1.
@@ -181,13 +181,13 @@ impl Coded for Error {
                 Some("this policy's weights fit one network only; train it on this one")
             }
             Self::BadCheckpoint { .. } => Some(
-                "resume with the settings the run was started with, or start again in another folder",
+                "resume with the settings the run was started with, or start a new run in another folder",
             ),
             Self::NotShipped { .. } => Some(
                 "name a rule (random, greedy, prices, rolling), gcaps-x, or give weights with --model",
             ),
             Self::BadCurve { .. } => Some(
-                "`vertifleet train` writes the curve next to the weights; remove the file to go without",
+                "`vertifleet train` writes the curve next to the weights; remove the file to do without",
             ),
             Self::Diverged { .. } => Some("lower learning_rate; the last checkpoint is as it was"),
             Self::Core(error) => error.hint(),

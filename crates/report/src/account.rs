@@ -96,7 +96,7 @@ fn sections(account: &Account) -> Vec<Section> {
     );
     if is_worth_known {
         vertiports = vertiports.with_note(
-            "one more stand is the shadow price of the bound: by how much the bound rises at most, before what the stand costs",
+            "one more stand is the shadow price of the bound: the largest rise of the bound, before the cost of the stand",
         );
     }
     sections.extend([
@@ -107,7 +107,7 @@ fn sections(account: &Account) -> Vec<Section> {
         vertiports,
         Section::of_table("Types of aircraft", tables::types(account))
             .with_note("means by type, within operations")
-            .with_note("profit is that of the flights, before what the aircraft costs"),
+            .with_note("profit is that of the flights, before the cost of the aircraft"),
     ]);
     sections
 }
@@ -142,18 +142,18 @@ fn heading(picture: PlayedPicture) -> &'static str {
 fn caption(picture: PlayedPicture) -> &'static str {
     match picture {
         PlayedPicture::Ledger => {
-            "Each cost takes its bar from what is left of the revenue; the rest is profit."
+            "Each cost takes its bar from the remaining revenue; the rest is profit."
         }
         PlayedPicture::Map => "Both directions of a pair together, to scale.",
         PlayedPicture::Aircraft => {
-            "Bars are flights, with take-off and landing; what is neither flight nor charging nor an outage is time on a stand."
+            "Bars are flights, with take-off and landing; all other time without charging or an outage is time on a stand."
         }
         PlayedPicture::Occupancy => {
             "A stand is taken from the decision to fly there until the decision to fly away. All capacities are drawn at the same height; \
              the number next to the dashed line is the capacity, with chargers where these are counted apart."
         }
         PlayedPicture::Demand => {
-            "Margin in the table below is what passengers would have paid less what carrying them costs, electricity and flights aside."
+            "Margin in the table below is the fares of the passengers less the cost of carrying them, without electricity and flight costs."
         }
     }
 }

@@ -57,7 +57,7 @@ fn lead(summary: &ComparisonReport, comparison: &PairedDifference) -> String {
     match difference.interval_95() {
         None => format!(", {share} {}.", other.name),
         Some(_) if !test.is_significant() => format!(
-            ". Its lead over {}, {}, is within what chance alone can make (paired t-test, {p}).",
+            ". Its lead over {}, {}, is not significant (paired t-test, {p}).",
             other.name,
             signed_dollars(difference.mean)
         ),

@@ -32,9 +32,9 @@ pub fn explanation<'a>(explanation: &Explanation, replayed: &'a [ReplayedDay]) -
     report.facts.insert(0, ("Upper bound", dollars(bound_usd)));
     report.sections.push(
         Section::of_table("What a change would be worth", worth(explanation))
-            .with_note("each day was solved again with the change, by the policy and by the bound; both differences are after what the change costs")
-            .with_note("the policy's difference is that of one day, which chance moves by more than most changes are worth: a sweep measures changes over many days")
-            .with_note("the bound's is that of what is possible; one more stand is worth its price in the table of vertiports at most, less what it costs"),
+            .with_note("each day was solved again with the change, by the policy and by the bound; both differences are net of the cost of the change")
+            .with_note("the policy's difference is that of one day, whose noise exceeds the value of most changes: a sweep measures changes over many days")
+            .with_note("the bound's is the difference of the upper bounds; one more stand is worth at most its price in the table of vertiports, less its cost"),
     );
     Report {
         subject: "where a day’s money is, and where it is lost",

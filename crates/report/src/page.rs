@@ -103,7 +103,7 @@ impl Report<'_> {
             footer {
                 @for paragraph in &self.closing { p { (paragraph) } }
                 @if let Files::Beside(files) = &self.files {
-                    p { "Files next to this page: "
+                    p { "Files in this folder: "
                         @for (position, file) in files.iter().enumerate() {
                             @if position > 0 { "; " }
                             a href=(file.name) { (file.name) } " (" (file.about) ")"

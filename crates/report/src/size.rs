@@ -126,8 +126,12 @@ fn designs(report: &SizeReport) -> Section {
     table.best = vec![report.best];
     let count = counted(report.designs.len(), "design was", "designs were");
     Section::of_table("Designs", table)
-        .with_note(format!("{count} played, in this order; ± is the 95 % interval of the mean over the days"))
-        .with_note("fixed cost is what fleet, stands and chargers cost a day whatever is flown; profits are after it")
+        .with_note(format!(
+            "{count} played, in this order; ± is the 95 % interval of the mean over the days"
+        ))
+        .with_note(
+            "fixed cost is the daily cost of fleet, stands and chargers; profits are net of it",
+        )
         .with_note("the bound holds for the design under any policy")
 }
 

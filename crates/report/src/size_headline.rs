@@ -58,7 +58,7 @@ fn again(report: &SizeReport) -> String {
                 .map_or_else(String::new, |half| format!(" ± {}", grouped(half, 0)));
             let than = report.now_on_holdout.served_share;
             format!(
-                "On {days}, which the search has not seen: {does}; that is {}{half} $ a day against the network {}, \
+                "On {days}, which the search did not use: {does}; that is {}{half} $ a day against the network {}, \
                  which carries {:.1} %.",
                 signed(more.mean, 0),
                 report.name_of_start(),
@@ -67,7 +67,7 @@ fn again(report: &SizeReport) -> String {
         }
         None => {
             format!(
-                "It is the network {}. On {days}, which the search has not seen: {does}.",
+                "It is the network {}. On {days}, which the search did not use: {does}.",
                 report.name_of_start()
             )
         }
@@ -133,13 +133,13 @@ fn doubts(report: &SizeReport) -> String {
     let mut doubts = Vec::new();
     if !report.goal_is_reached && !matches!(report.certificate, Certificate::OutOfReach { .. }) {
         doubts.push(format!(
-            "No bound says that it cannot be reached: it may be {} that leaves passengers behind who cost more than they pay.",
+            "No bound rules it out: {} may be leaving passengers behind who cost more than they pay.",
             report.policy
         ));
     }
     if let Some(file) = report.left_out.as_ref().filter(|file| !file.is_better) {
         doubts.push(format!(
-            "These numbers leave the network as it is out, with which {} earns {} a day.",
+            "These numbers exclude the current network, with which {} earns {} a day.",
             report.policy,
             estimate(&file.profit_usd)
         ));

@@ -22,7 +22,7 @@ pub(crate) fn headline(report: &SweepReport) -> String {
     {
         let cost = if size.fixed_cost_usd < most.fixed_cost_usd {
             format!(
-                ", which cost {} less a day whatever is flown",
+                "; its fixed cost is {} a day lower",
                 dollars(most.fixed_cost_usd - size.fixed_cost_usd)
             )
         } else {

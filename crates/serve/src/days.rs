@@ -87,7 +87,7 @@ impl Days {
     /// Returns [`Error::Store`] if it does not, or recently did not.
     pub(crate) async fn check(&self) -> Result<(), Error> {
         if self.committer.has_failed() {
-            let cause = "it refused events a moment ago; the log says why".to_owned();
+            let cause = "it refused events a moment ago; the log has the cause".to_owned();
             return Err(Error::Store { cause });
         }
         self.store.check().await

@@ -123,7 +123,7 @@ pub enum Error {
     /// write later. Fix: send the request again with its `Idempotency-Key` once the database
     /// answers.
     #[error(
-        "the store failed: the database has not answered for {s} s; what it was sent may still be stored"
+        "the store failed: the database has not answered for {s} s; the write may still be stored"
     )]
     StoreHangs {
         /// For how long, seconds.
@@ -174,7 +174,7 @@ pub enum Error {
     ///
     /// Fix: make one with `vertifleet serve token make`, and send it as `Authorization: Bearer
     /// vf_...`.
-    #[error("the request needs a token that is in force")]
+    #[error("the request needs a valid token")]
     NoToken,
 
     /// V611 cannot listen. The address of `--listen` is in use, or does not belong to this machine.
@@ -226,7 +226,7 @@ pub enum Error {
     /// details.
     ///
     /// Fix: report it with the lines of the log.
-    #[error("something went wrong inside: {cause}")]
+    #[error("internal error: {cause}")]
     Internal {
         /// The cause.
         cause: String,
@@ -245,7 +245,7 @@ pub enum Error {
     /// so an earlier event would have been impossible.
     ///
     /// Fix: request a change under which every event so far was possible.
-    #[error("the day could not have gone as it did: {rule}")]
+    #[error("the change contradicts an earlier event: {rule}")]
     Contradiction {
         /// The event, and why it was not possible.
         rule: String,
@@ -267,7 +267,7 @@ pub enum Error {
     ///
     /// Fix: listen on 127.0.0.1. Or put a proxy with TLS in front of the service, give
     /// `--behind-proxy`, and make a token.
-    #[error("{address} can be reached by others: {missing}")]
+    #[error("other machines can reach {address}: {missing}")]
     Unprotected {
         /// The address.
         address: String,

@@ -160,7 +160,7 @@ pub(crate) async fn put(
     let network = read(&toml)?;
     if network.name() != name {
         let rule =
-            format!("the network is called {:?}, and the path says {name:?}", network.name());
+            format!("the network is called {:?}, and the path names {name:?}", network.name());
         return Err(Error::BadRequest { rule });
     }
     if Network::shipped(name).is_some() {

@@ -145,10 +145,10 @@ async fn check_protection(settings: &Settings, service: &Service) -> Result<(), 
     let unprotected =
         |missing| Error::Unprotected { address: settings.listen.to_string(), missing };
     if settings.protection == Protection::None {
-        return Err(unprotected("what is said there is not encrypted"));
+        return Err(unprotected("connections are not encrypted"));
     }
     if !service.access.is_guarded().await? {
-        return Err(unprotected("there is no token in force"));
+        return Err(unprotected("there is no valid token"));
     }
     Ok(())
 }

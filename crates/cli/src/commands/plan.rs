@@ -99,7 +99,7 @@ fn text(scenario: &Scenario, plan: &Plan, bound: Option<&Bound>, seconds: f64) -
     ];
     let Some(bound) = bound else {
         lines.push(
-            "  upper bound     not known: the day is too large for one, or the time was too short"
+            "  upper bound     none: the day is too large for one, or the time was too short"
                 .to_owned(),
         );
         return lines.join("\n");

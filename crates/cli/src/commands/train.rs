@@ -96,7 +96,7 @@ impl TrainingWatch for Shown {
     }
 
     fn could_not_write(&self, error: &Error) {
-        eprintln!("warning: {error}; the training goes on");
+        eprintln!("warning: {error}; the training continues");
     }
 }
 
@@ -121,7 +121,7 @@ fn print_summary(run: &dyn TrainingRun, folder: &RunFolder) -> Result<(), Failur
     print(&lines.join("\n"))?;
     eprintln!("watch the curve with: tensorboard --logdir {}", folder.events.display());
     if !run.is_done() {
-        eprintln!("stopped early; --resume goes on from {}", folder.checkpoint.display());
+        eprintln!("stopped early; --resume continues from {}", folder.checkpoint.display());
     }
     Ok(())
 }

@@ -155,7 +155,7 @@ fn check_same(header: &mut Map<String, Value>, asked: &RunIdentity) -> Result<()
     let mut run: Map<String, Value> = member(header, "run")?;
     let settings = run.remove("settings").unwrap_or_default();
     let different = |what: &str, found: &dyn Display, asked: &dyn Display| {
-        Err(format!("it is of a run with {what} {found}, but {asked} is asked for"))
+        Err(format!("it belongs to a run with {what} {found}, not {asked}"))
     };
     let network: String = member(&mut run, "network")?;
     if network != asked.network {

@@ -27,7 +27,7 @@ pub(super) fn figure(report: &SizeReport) -> Figure {
         ("What each design carries", "passengers a day")
     };
     let subtitle = format!(
-        "Means over {} days with {}; ticks above are what each can reach at most",
+        "Means over {} days with {}; ticks above are upper bounds",
         report.days, report.policy
     );
     let mut canvas = Canvas::new(WIDTH, HEIGHT, title, &subtitle);

@@ -173,7 +173,7 @@ fn a_headline_says_whether_the_lead_is_more_than_chance() {
     }
     study.policies.remove(2);
     let (_folder, paths) = written(&study);
-    assert!(read(&paths.page).contains("Its lead over greedy, +$10, is within what chance alone"));
+    assert!(read(&paths.page).contains("Its lead over greedy, +$10, is not significant"));
 }
 
 #[test]

@@ -74,7 +74,7 @@ fn check_who_decided(events: &[Event]) -> Result<(), Error> {
         _ => false,
     };
     if events.iter().any(claims) {
-        let rule = "`policy` and `instead_of` are what the service says of decisions that it took itself: leave them out";
+        let rule = "only the service sets `policy` and `instead_of`: leave them out";
         return Err(Error::BadRequest { rule: rule.to_owned() });
     }
     Ok(())

@@ -50,7 +50,9 @@ impl Coded for Error {
             Self::Study(error) => error.hint(),
             Self::InList { cause, .. } => cause.hint(),
             Self::Moved { .. } => Some("read the day again, and decide again"),
-            Self::ReportError(_) => Some("if it is so in reality, report first what led there"),
+            Self::ReportError(_) => {
+                Some("if the event did happen, report first the events that led to it")
+            }
             Self::NoSuchEvent { .. } | Self::OtherLog { .. } => {
                 Some("the day may have been put back from a copy: read its state again")
             }
@@ -62,7 +64,7 @@ impl Coded for Error {
             }
             Self::Archived { .. } => Some("POST /v1/days/DAY/unarchive opens it again"),
             Self::KeyReused { .. } => Some("use a new Idempotency-Key for each request"),
-            Self::BadData { .. } => Some("`vertifleet serve verify` names what is damaged"),
+            Self::BadData { .. } => Some("`vertifleet serve verify` names the damaged part"),
             Self::ForeignData { .. } => Some(
                 "use the program that wrote it or a newer one, or name the right folder or file",
             ),
