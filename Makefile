@@ -1,4 +1,4 @@
-# The project's two commands are `make demo` and `make test`; the rest serves people who work on it.
+# The project's two commands are `make demo` and `make test`; the rest is for its developers.
 
 .PHONY: demo program check test test-all rust-test python-light-test python-test console-test lint soak database console console-ready deny bench train suites notebooks python wheel sdist prepare tools
 
@@ -14,7 +14,7 @@ program: prepare
 # The settings of tests, which .cargo/checked.toml explains.
 CHECKED = --config .cargo/checked.toml --release --workspace --locked
 
-# What to run before a commit, in minutes: formatting, clippy, and the tests that find most: those next to the code.
+# Run this before a commit; it takes minutes: formatting, clippy, and the unit tests.
 check: prepare
 	cargo fmt --all --check
 	cargo clippy $(CHECKED) --all-targets -- -D warnings
@@ -28,7 +28,7 @@ test:
 test-all:
 	@scripts/groups rust-test console-test python-light-test python-test
 
-# What CI adds to the tests.
+# The lints, which CI runs besides the tests.
 lint: prepare python tools console-ready
 	cargo fmt --all --check
 	cargo clippy $(CHECKED) --all-targets -- -D warnings
@@ -52,11 +52,12 @@ python-light-test: prepare
 	cargo test $(CHECKED) --no-run
 	@scripts/python light
 	target/checked/python/$(PYTEST) -q --ignore python/tests/frameworks python/tests
-# What needs PyTorch or Ray, and whether the wheel that users install works.
+# The tests that need PyTorch or Ray, and a test of the wheel that users install.
 python-test: python
 	python/.venv/$(PYTEST) python/tests/frameworks python/tests/test_library.py python/benches
 
-# The console in headless Chromium, with the program as tests build it; and whether web/dist is what web/ builds.
+# The console in headless browsers, with the tests' build of the program; and a check that web/dist
+# matches web/.
 console-test: prepare
 	@scripts/console test
 	cargo test $(CHECKED) --no-run
@@ -66,21 +67,22 @@ console-test: prepare
 python: prepare
 	@scripts/python
 
-# What the tests of services that share a database need.
+# The PostgreSQL server for the tests of services that share a database.
 database:
 	@scripts/database
 
-# Builds the console from web/ into web/dist, which is in the tree: only those who change it need Node.
+# Builds the console from web/ into web/dist, which is in the tree: only its developers need Node.
 console: console-ready
 	cd web && npm run build
 console-ready: prepare
 	@scripts/console build
 
-# How often the service survives: 1,000 kills while clients write, with each kind of store, and where writes fail too.
+# A long test of the service: 1,000 kills while clients write, with each kind of store, and with
+# failing writes.
 soak: prepare database
 	VERTIFLEET_KILLS=1000 cargo test $(CHECKED) --test cli serve_killed -- --nocapture
 
-# What the lints need besides Rust and Python.
+# The programs that the lints need besides Rust and Python.
 tools: prepare
 	@scripts/tools
 
@@ -101,8 +103,9 @@ bench: prepare
 	cargo bench --workspace --locked
 
 # How the shipped weights were made; they are then copied from out/train to models/paper, those of gcaps-x to models/any, with
-# their curves. Beside gcaps-x lie the curves of --seed 2 and --seed 3. The shipped gcaps-x began with the weights that this
-# makes, at commit 8699f1b2c3a7: docs/src/benchmarks.md, "gcaps-x", has its command.
+# their curves. Beside gcaps-x lie the curves of --seed 2 and --seed 3. The shipped gcaps-x began
+# with the weights that this makes, at commit 8699f1b2c3a7: docs/src/benchmarks.md, "gcaps-x", has
+# its command.
 train: program
 	./target/release/vertifleet train --network paper --policy gcaps --seed 1 --out out/train
 	./target/release/vertifleet train --network paper --policy mlp --seed 1 --out out/train
