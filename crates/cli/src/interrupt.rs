@@ -1,6 +1,6 @@
 //! Ctrl-C. In a command whose partial results are worth keeping, the first Ctrl-C requests a clean
-//! end and the second ends the program at once; in other commands the first one does. Files that
-//! are being written are always completed.
+//! end and the second ends the program at once; in other commands the first one does. No file is
+//! left incomplete.
 //!
 //! On Unix, SIGTERM and SIGHUP are handled in the same way. A signal that was ignored when the
 //! program started stays ignored: `nohup`, and a shell without job control that starts a program in

@@ -100,7 +100,7 @@ fn features_are_bounded_and_choices_are_feasible_on_every_network() {
 }
 
 #[test]
-fn what_is_remembered_is_what_is_seen_anew() {
+fn cached_values_equal_recomputed_ones() {
     let policy = small(Adjacency::Profit);
     let mut remembering = policy.writer(None);
     let mut days: Vec<Simulation> = days().into_iter().map(Simulation::new).collect();
@@ -124,7 +124,7 @@ fn what_is_remembered_is_what_is_seen_anew() {
 }
 
 #[test]
-fn a_choice_that_is_rolled_out_to_the_end_is_worth_what_the_day_then_earns() {
+fn a_choice_that_is_rolled_out_to_the_end_has_the_value_of_the_days_profit() {
     let [mut rolled_out, mut alone] = twice(&small(Adjacency::Complete));
     let settings =
         RolloutSettings { horizon_s: 86_400, rollouts: 2, noise: 0.0, price_weight: 0.0 };

@@ -206,7 +206,7 @@ mod tests {
     use vertifleet_core::Coded;
 
     #[test]
-    fn a_run_that_diverges_says_so() {
+    fn a_diverging_run_returns_an_error() {
         check_finite(&[1.0, -2.0], 3).expect("numbers");
         for lost in [f32::NAN, f32::INFINITY] {
             let error = check_finite(&[1.0, lost], 3).expect_err("no number");

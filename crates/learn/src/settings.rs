@@ -274,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_fit_is_refused_and_changes_nothing() {
+    fn invalid_settings_are_refused_and_change_nothing() {
         let mut settings = default_of("gcaps");
         for (name, value) in
             [("batchsize", "512"), ("batch_size", "-1"), ("gamma", "1.5"), ("reward", "sparse")]

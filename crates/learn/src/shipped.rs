@@ -84,7 +84,7 @@ mod tests {
     use vertifleet_core::Coded;
 
     #[test]
-    fn every_shipped_policy_loads_is_what_it_is_called_and_lies_on_its_curve() {
+    fn every_shipped_policy_loads_has_its_name_and_lies_on_its_curve() {
         for files in &FILES {
             let network = files.network.unwrap_or("new-york");
             let trained = shipped(files.policy, network).expect("a shipped policy");
@@ -97,13 +97,13 @@ mod tests {
     }
 
     #[test]
-    fn curves_of_other_seeds_are_of_runs_of_their_own() {
+    fn curves_of_other_seeds_belong_to_other_runs() {
         let curves = shipped("gcaps-x", "paper").expect("a shipped policy").curves;
         assert!(curves.len() == 3 && curves[0] != curves[1] && curves[1] != curves[2]);
     }
 
     #[test]
-    fn what_is_not_shipped_is_named_with_what_is() {
+    fn the_error_for_an_unknown_policy_lists_the_shipped_ones() {
         let error = shipped("fastest", "paper").expect_err("no such policy");
         assert_eq!(error.code().to_string(), "V307");
         let known = "gcaps on paper, mlp on paper, gcaps-x on any, gcaps-full on any";

@@ -40,7 +40,7 @@ pub(crate) struct Around<M> {
     pub(crate) ready: Time,
     /// The number of aircraft that are ready before that time.
     pub(crate) before: u16,
-    /// The number that are ready within [`ABOUT_S`] of that time.
+    /// The number that are ready within [`NEAR_S`] of that time.
     pub(crate) near: u16,
     pub(crate) more: M,
 }

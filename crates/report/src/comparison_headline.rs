@@ -86,7 +86,7 @@ mod tests {
     use super::share;
 
     #[test]
-    fn a_lead_is_a_share_only_of_what_is_earned() {
+    fn a_lead_is_a_share_only_of_a_positive_profit() {
         assert_eq!(share(13.0, 1_000.0), "1.3 % more than");
         assert_eq!(share(13.0, -5.0), "$13 more than");
         assert_eq!(share(0.0, 1_000.0), "as much as");

@@ -91,7 +91,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_date_no_zone_or_before_the_day_is_refused() {
+    fn invalid_dates_zones_and_times_before_the_day_are_refused() {
         assert!(Calendar::new("23.11.2026", "America/New_York").is_err());
         assert!(Calendar::new("2026-02-30", "America/New_York").is_err());
         for date in ["9999-12-30", "1969-12-31", "2026-11-23T07:00", "-009999-01-02", "20261123"] {

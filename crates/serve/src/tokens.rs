@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn a_token_matches_by_its_whole_secret_and_only_while_it_is_in_force() {
+    fn a_token_matches_by_its_whole_secret_and_only_while_it_is_valid() {
         let (good, revoked) = ([token(0)], [token(5)]);
         assert_eq!(matching(&good, "vf_1f_secret"), Some(&good[0]));
         for wrong in ["vf_1f_secre", "vf_1f_secret2", "vf_1e_secret", "1f_secret", "vf_1f", ""] {

@@ -198,7 +198,7 @@ fn the_environment_bounds_the_threads_too() {
 }
 
 #[test]
-fn what_is_hardly_meant_is_warned_of_with_its_code() {
+fn unlikely_settings_raise_a_warning_with_a_code() {
     let folder = folder();
     let day = stdout(folder.path(), "scenario paper --seed 7");
     let weak = day.replace("\"battery_kwh\": 110", "\"battery_kwh\": 1");
@@ -405,7 +405,7 @@ fn training_leaves_weights_that_run() {
 }
 
 #[test]
-fn what_users_get_wrong_has_a_code_and_a_way_out() {
+fn errors_of_users_have_a_code_and_a_remedy() {
     let folder = folder();
     let at = folder.path();
     stdout(at, "scenario paper --seed 7 -o day.json");

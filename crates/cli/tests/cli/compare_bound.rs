@@ -68,7 +68,7 @@ fn every_policy_has_its_share_of_the_bound_and_the_plan_is_marked() {
 }
 
 #[test]
-fn bounds_are_proven_where_nothing_can_be_kept() {
+fn bounds_are_proven_without_a_cache() {
     let folder = folder();
     let at = folder.path();
     fs::write(at.join("kept"), "no folder").expect("a file");
@@ -77,7 +77,7 @@ fn bounds_are_proven_where_nothing_can_be_kept() {
 }
 
 #[test]
-fn a_step_without_a_bound_and_a_step_that_is_none_are_refused() {
+fn a_step_without_a_bound_and_an_invalid_step_are_refused() {
     let folder = folder();
     compare(folder.path(), "--policies greedy --days 1 --seed 1 --step 3").assert().code(2);
     let refused = compare(folder.path(), "--policies greedy --days 1 --seed 1 --bound --step 0")

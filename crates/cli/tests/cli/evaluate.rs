@@ -56,7 +56,7 @@ fn results_are_written_and_verified() {
 
 /// The cheapest row of the book's table; the others come from the same command.
 #[test]
-fn the_protocol_shows_what_the_program_prints() {
+fn the_protocol_shows_the_output_of_the_program() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let page = fs::read_to_string(root.join("docs/src/reference/protocol.md")).expect("a page");
     let row = page.lines().find(|line| line.starts_with("| `greedy` |")).expect("a row of greedy");

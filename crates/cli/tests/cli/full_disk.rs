@@ -58,7 +58,7 @@ fn results(at: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 }
 
 #[test]
-fn where_files_meet_a_limit_everything_is_as_it_was() {
+fn a_limit_on_file_sizes_leaves_all_files_unchanged() {
     let folder = prepared();
     let at = folder.path();
     let before = results(at);
@@ -90,7 +90,7 @@ fn a_training_whose_checkpoint_cannot_be_written_keeps_the_weights_of_the_one_be
 }
 
 #[test]
-fn results_that_stdout_does_not_take_are_no_success() {
+fn a_failed_write_to_stdout_is_a_failure() {
     if !Path::new("/dev/full").exists() {
         println!("skipped: this system has no /dev/full");
         return;
@@ -135,7 +135,7 @@ impl Drop for SmallDisk {
 }
 
 #[test]
-fn where_the_disk_is_full_everything_is_as_it_was() {
+fn a_full_disk_leaves_all_files_unchanged() {
     let folder = prepared();
     let at = folder.path();
     let Some(disk) = SmallDisk::mount(&at.join("disk"), DISK_KIB) else {

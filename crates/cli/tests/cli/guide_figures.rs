@@ -55,7 +55,7 @@ fn printed(folder: &Path, command: &str) -> String {
 }
 
 #[test]
-fn the_first_hour_shows_what_its_commands_print() {
+fn the_first_hour_shows_the_output_of_its_commands() {
     let (folder, page) = (folder(), page("first-hour.md"));
     let (mut commands, mut compared) = (Vec::new(), 0);
     let (_, page) = page.split_once("## Draw a day").expect("its first command");

@@ -85,7 +85,7 @@ fn wait_for_first_update(child: &mut Child, out: &Path) {
 }
 
 #[test]
-fn a_training_ended_by_ctrl_c_goes_on_to_the_same_weights() {
+fn a_training_ended_by_ctrl_c_resumes_to_the_same_weights() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
     let whole = train(at, "--out whole").output().expect("the program runs");
@@ -111,7 +111,7 @@ fn a_training_ended_by_ctrl_c_goes_on_to_the_same_weights() {
 }
 
 #[test]
-fn a_training_of_gcaps_x_ended_by_ctrl_c_goes_on_to_the_same_weights() {
+fn a_training_of_gcaps_x_ended_by_ctrl_c_resumes_to_the_same_weights() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
     let train = |more: &str| {
@@ -189,7 +189,7 @@ fn policies_and_plans_at_work_are_ended_by_ctrl_c() {
 }
 
 #[test]
-fn a_proof_ended_by_ctrl_c_says_nothing() {
+fn a_proof_ended_by_ctrl_c_prints_nothing() {
     let folder = tempfile::tempdir().expect("a folder");
     let drawn = vertifleet(folder.path(), "scenario paper --seed 1").output();
     let day = drawn.expect("the program runs").stdout;
@@ -200,7 +200,7 @@ fn a_proof_ended_by_ctrl_c_says_nothing() {
 /// background of a shell without job control.
 #[cfg(target_os = "linux")]
 #[test]
-fn what_is_ignored_at_the_start_stays_ignored() {
+fn signals_ignored_at_the_start_stay_ignored() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
     let begin =

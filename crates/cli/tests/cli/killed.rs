@@ -167,7 +167,7 @@ fn a_training_is_whole_whenever_the_program_is_killed() {
 }
 
 #[test]
-fn what_a_killed_program_leaves_is_in_no_ones_way() {
+fn files_of_a_killed_program_stop_no_other_command() {
     let folder = folder();
     let at = folder.path();
     small_network(at);

@@ -111,7 +111,7 @@ fn every_misuse_is_answered_and_changes_nothing() {
 }
 
 #[test]
-fn what_is_in_the_way_is_replaced_by_force_alone() {
+fn existing_files_are_replaced_only_with_force() {
     let folder = prepared();
     let at = folder.path();
     for arguments in [
@@ -162,7 +162,7 @@ fn two_results_never_go_to_one_file() {
 }
 
 #[test]
-fn blanks_around_names_are_no_part_of_them() {
+fn blanks_around_names_are_ignored() {
     let folder = folder();
     small_network(folder.path());
     let mut command = vertifleet(folder.path(), "compare --network small.toml --days 1 --seed 1");

@@ -16,7 +16,7 @@ fn compared(at: &Path, arguments: &str) -> Value {
 }
 
 #[test]
-fn files_of_drawn_days_earn_what_the_drawn_days_do_and_are_called_ones_own() {
+fn files_of_drawn_days_earn_the_same_and_count_as_the_users_days() {
     let folder = folder();
     let at = folder.path();
     run(at, "scenario paper --seed 0 --days 2 -o days");
@@ -57,7 +57,7 @@ fn days_that_differ_in_all_but_their_vertiports_are_compared_and_bounded() {
 }
 
 #[test]
-fn what_looks_wrong_with_a_network_is_said_by_every_command_that_draws_days() {
+fn every_command_that_draws_days_prints_the_warnings_of_the_network() {
     let folder = folder();
     let at = folder.path();
     small_network(at);

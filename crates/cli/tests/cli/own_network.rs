@@ -79,7 +79,7 @@ fn a_day_of_a_network_with_a_table_and_costs_is_played_checked_bounded_and_plann
 }
 
 #[test]
-fn a_table_beside_a_network_is_an_input_that_no_output_replaces() {
+fn no_output_replaces_the_table_of_a_network() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
     own_network(at);
@@ -94,7 +94,7 @@ fn a_table_beside_a_network_is_an_input_that_no_output_replaces() {
 }
 
 #[test]
-fn a_file_of_the_other_kind_is_said_to_be_one() {
+fn the_error_for_a_file_of_the_other_kind_names_that_kind() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
     own_network(at);
@@ -114,7 +114,7 @@ fn a_file_of_the_other_kind_is_said_to_be_one() {
 }
 
 #[test]
-fn a_vertiport_out_of_reach_is_told_by_every_command_that_draws_days() {
+fn every_command_that_draws_days_warns_of_a_vertiport_out_of_reach() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = folder.path();
     let slipped = NEW_YORK.replacen("longitude = -", "longitude = ", 1);

@@ -157,7 +157,7 @@ fn a_dry_run_shows_the_first_row_of_each_reason_and_writes_nothing() {
 }
 
 #[test]
-fn trips_of_bicycles_are_known_and_other_columns_can_be_named() {
+fn columns_of_bicycle_trips_are_recognised_and_others_can_be_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let here = folder.path();
     fs::write(here.join("vertiports.csv"), VERTIPORTS).expect("room");
@@ -235,7 +235,7 @@ fn flags_of_trip_records_are_refused_without_trip_records() {
 }
 
 #[test]
-fn check_says_everything_at_once() {
+fn check_reports_all_findings_at_once() {
     let folder = imported();
     let here = folder.path();
     let good = stdout(here, &["network", "check", "bay.toml"]);
@@ -294,7 +294,7 @@ fn differences_are_paths_that_a_sweep_takes() {
 }
 
 #[test]
-fn a_new_network_says_what_is_assumed_and_can_be_used_at_once() {
+fn a_new_network_marks_assumptions_and_can_be_used_at_once() {
     let folder = tempfile::tempdir().expect("a folder");
     let here = folder.path();
     let flags = [

@@ -33,7 +33,7 @@ fn data(folder: &Path) -> String {
 }
 
 #[test]
-fn data_is_checked_copied_and_put_back() {
+fn data_is_checked_copied_and_restored() {
     let folder = tempfile::tempdir().expect("a folder");
     let (first, second) = (folder.path().join("first"), folder.path().join("second"));
     let id = data(&first);
@@ -106,7 +106,7 @@ fn tokens_are_made_listed_and_revoked() {
 }
 
 #[test]
-fn what_is_no_copy_of_a_service_is_not_put_back() {
+fn a_file_that_is_no_copy_of_a_service_is_not_restored() {
     let folder = tempfile::tempdir().expect("a folder");
     let (copy, data) = (folder.path().join("copy.db"), folder.path().join("data"));
     let copy_text = copy.display().to_string();
@@ -141,7 +141,7 @@ fn a_changed_beginning_of_a_day_is_found() {
 
 #[test]
 #[cfg(unix)]
-fn only_the_owner_can_read_copies_and_what_is_put_back() {
+fn only_the_owner_can_read_copies_and_restored_data() {
     use std::os::unix::fs::PermissionsExt as _;
     let folder = tempfile::tempdir().expect("a folder");
     // Characters with a meaning in addresses are ordinary characters of a name.
@@ -161,7 +161,7 @@ fn only_the_owner_can_read_copies_and_what_is_put_back() {
 }
 
 #[test]
-fn mistakes_make_no_data() {
+fn wrong_commands_create_no_data() {
     let folder = tempfile::tempdir().expect("a folder");
     let nowhere = folder.path().join("nowhere");
     serve(&["token", "list"], &nowhere).failure();

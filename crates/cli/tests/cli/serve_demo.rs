@@ -28,7 +28,7 @@ fn wait_for<T>(mut found: impl FnMut() -> Option<T>) -> T {
 }
 
 #[test]
-fn the_demo_shows_a_day_that_goes_on_and_keeps_nothing() {
+fn the_demo_shows_a_day_in_progress_and_keeps_no_data() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut command = Service::command("127.0.0.1:0");
     command.arg("--demo").env("TMPDIR", folder.path()).current_dir(folder.path());
@@ -51,7 +51,7 @@ fn the_demo_shows_a_day_that_goes_on_and_keeps_nothing() {
 }
 
 #[test]
-fn the_demo_has_no_data_of_its_own() {
+fn the_demo_takes_no_data_options() {
     let mut command = Service::command("127.0.0.1:0");
     let refused = Service::start(command.args(["--demo", "--data", "here"]));
     assert!(refused.err().expect("it does not start").contains("--demo"));

@@ -96,7 +96,7 @@ impl SmallDisk {
 }
 
 #[test]
-fn a_full_disk_loses_nothing_that_was_acknowledged_and_the_service_goes_on() {
+fn a_full_disk_loses_no_acknowledged_event_and_the_service_continues() {
     let place = tempfile::tempdir().expect("a folder");
     let Some(disk) = SmallDisk::start(place.path()) else { return };
     let (status, made) =

@@ -51,7 +51,7 @@ impl Service {
 }
 
 #[test]
-fn others_are_served_beside_thousands_of_silent_connections() {
+fn other_clients_are_served_despite_thousands_of_silent_connections() {
     let folder = tempfile::tempdir().expect("a folder");
     let service = start(folder.path());
     let files = rlimit::increase_nofile_limit(u64::MAX).expect("a limit");

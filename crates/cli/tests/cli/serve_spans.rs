@@ -32,7 +32,7 @@ fn first_line(listener: &TcpListener) -> String {
 }
 
 #[test]
-fn spans_go_where_the_command_line_or_else_the_environment_says() {
+fn spans_go_to_the_collector_of_the_command_line_or_else_of_the_environment() {
     let (asked, asked_url) = listener();
     let (other, other_url) = listener();
     other.set_nonblocking(true).expect("it need not wait");
@@ -55,7 +55,7 @@ fn spans_go_where_the_command_line_or_else_the_environment_says() {
 }
 
 #[test]
-fn what_is_no_address_is_refused() {
+fn an_invalid_address_is_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let command = |url: &str| {
         let mut command = Command::new(assert_cmd::cargo::cargo_bin!("vertifleet"));

@@ -31,7 +31,7 @@ mod tests {
     use super::estimate;
 
     #[test]
-    fn with_lambda_1_and_gamma_1_it_is_the_return_less_the_value() {
+    fn with_lambda_1_and_gamma_1_the_advantage_is_the_return_less_the_value() {
         let mut advantages = [0.0; 4];
         let values = [0.5, 0.25, 2.0, 1.0];
         estimate(
@@ -47,7 +47,7 @@ mod tests {
     }
 
     #[test]
-    fn with_lambda_0_it_is_one_step_of_td_error() {
+    fn with_lambda_0_the_advantage_is_one_step_of_td_error() {
         let mut advantages = [0.0; 2];
         estimate(&[1.0, 2.0], &[0.5, 0.25], &[false, false], 4.0, 0.5, 0.0, &mut advantages);
         assert_eq!(advantages, [1.0 + 0.5 * 0.25 - 0.5, 2.0 + 0.5 * 4.0 - 0.25]);

@@ -336,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn what_training_is_paid_by_the_flight_sums_to_what_it_is_paid_at_the_end() {
+    fn dense_rewards_sum_to_the_terminal_reward() {
         let (dense, end) = rewards(Reward::Dense);
         let (terminal, same_end) = rewards(Reward::Terminal);
         assert_eq!(end, same_end);
@@ -346,7 +346,7 @@ mod tests {
     }
 
     #[test]
-    fn choices_come_as_often_as_the_softmax_says() {
+    fn choices_have_the_frequencies_of_the_softmax() {
         let logits = [0.3, f32::NEG_INFINITY, -1.0, 2.0];
         let total: f32 = logits.iter().map(|logit: &f32| logit.exp()).sum();
         let draws = 100_000;

@@ -284,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_curve_is_refused_with_its_line() {
+    fn an_invalid_curve_is_refused_with_the_line() {
         for (text, line) in [
             ("update,steps\n1,2\n", "line 1"),
             ("update,steps,validation_reward\n1,2,\n2,x,0.5\n", "line 3"),

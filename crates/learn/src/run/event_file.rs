@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_that_was_killed_and_goes_on_tells_of_each_step_once() {
+    fn a_killed_and_resumed_run_logs_each_step_once() {
         let folder = tempfile::tempdir().expect("a folder");
         let mut killed =
             EventFile::create(folder.path(), 1_700_000_000.0, &of(&[])).expect("a file");

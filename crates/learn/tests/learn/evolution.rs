@@ -156,7 +156,7 @@ fn weights_that_do_not_fit_the_run_are_refused() {
 }
 
 #[test]
-fn a_run_goes_on_only_with_the_weights_that_it_began_with() {
+fn a_run_resumes_only_with_its_initial_weights() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("checkpoint");
     let fresh = plan(small_mlp(), &[]);

@@ -213,7 +213,7 @@ fn both_networks_have_about_a_million_weights() {
 }
 
 #[test]
-fn tensors_fill_the_layout_and_have_names_of_their_own() {
+fn tensors_fill_the_layout_and_have_unique_names() {
     for net in networks() {
         let mut end = 0;
         let mut names = std::collections::BTreeSet::new();

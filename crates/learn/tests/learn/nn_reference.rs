@@ -158,7 +158,7 @@ fn gcaps_is_the_papers_network() {
 }
 
 #[test]
-fn gcaps_on_other_graphs_is_what_its_equations_say() {
+fn gcaps_on_other_graphs_equals_its_equations() {
     check("gcaps-full", include_str!("../reference/graphs.json"));
 }
 

@@ -122,7 +122,7 @@ fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
 }
 
 #[test]
-fn a_run_that_is_stopped_stands_as_before_and_goes_on() {
+fn a_stopped_run_has_its_former_state_and_continues() {
     for plan in [plan(small_gcaps()), plan(small_gcaps_x())].map(on_mornings) {
         let whole = finished(plan.clone().start().expect("a plan"));
         let mut run = plan.clone().start().expect("a plan");
@@ -186,7 +186,7 @@ fn replaced(bytes: &[u8], from: &str, to: &str) -> Vec<u8> {
 }
 
 #[test]
-fn what_a_run_leaves_says_first_what_it_is() {
+fn files_of_a_run_begin_with_their_format() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("checkpoint");
     for policy in [small_mlp(), small_gcaps_x()] {
@@ -326,7 +326,7 @@ fn training_validation_and_comparison_never_share_a_day() {
 }
 
 #[test]
-fn what_a_policy_cannot_see_or_fit_is_refused_before_it_learns() {
+fn graphs_and_worlds_that_do_not_fit_a_policy_are_refused_before_training() {
     let refused = |plan: TrainingRequest| plan.start().err().expect("no such run").to_string();
     let world = World::Random;
     let of_all_sizes = TrainingRequest { world: world.clone(), ..plan(small_mlp_full()) };

@@ -151,7 +151,7 @@ fn days() -> Vec<Arc<Scenario>> {
 }
 
 #[test]
-fn rows_say_what_the_view_says_padded_or_not() {
+fn rows_equal_the_view_padded_or_not() {
     let network = Network::shipped("paper").expect("a shipped network");
     for day in days() {
         for extra in [0, 3] {
@@ -177,7 +177,7 @@ fn rows_say_what_the_view_says_padded_or_not() {
 }
 
 #[test]
-fn policies_see_what_the_parts_show() {
+fn policies_observe_the_values_of_the_parts() {
     let network = Network::shipped("paper").expect("a shipped network");
     let day = Arc::new(network.draw(DaySeed::training_number(1).expect("a number")));
     let parts = vec![Part::Nodes, Part::Aircraft, Part::Clock, Part::ActionMask];
@@ -248,7 +248,7 @@ proptest! {
     /// Changes the demand of later periods and expects the same rows: before a period begins,
     /// observations contain its forecast only.
     #[test]
-    fn the_future_is_not_seen(number in 0_u64..1_000, shift in 1_u32..50) {
+    fn observations_do_not_depend_on_the_future(number in 0_u64..1_000, shift in 1_u32..50) {
         let network = Network::shipped("disrupted").expect("a shipped network");
         let own = network.draw(DaySeed::training_number(number).expect("a number"));
         let last = own.periods.len() - 1;

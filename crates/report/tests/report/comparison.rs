@@ -102,7 +102,7 @@ fn shares_of_the_bound_stand_in_page_days_and_numbers_for_machines() {
 }
 
 #[test]
-fn where_nothing_can_be_earned_nothing_earned_is_all_of_it() {
+fn the_share_is_one_if_nothing_can_be_earned() {
     let mut day = made_up::study(1).policies[0].days[0].clone();
     let mut share = |profit_usd, upper_bound_usd| {
         (day.totals.profit_usd, day.upper_bound_usd) = (profit_usd, upper_bound_usd);
@@ -117,7 +117,7 @@ fn where_nothing_can_be_earned_nothing_earned_is_all_of_it() {
 }
 
 #[test]
-fn a_report_loads_nothing_from_anywhere() {
+fn a_report_loads_no_other_resource() {
     let (_folder, paths) = written(&made_up::study(12));
     let page = read(&paths.page);
     for loading in ["src=", "@import", "url(", "<script", "<link", "href=\"http", "href=\"//"] {
@@ -129,7 +129,7 @@ fn a_report_loads_nothing_from_anywhere() {
 }
 
 #[test]
-fn links_of_a_report_lead_to_files_beside_it() {
+fn links_of_a_report_lead_to_files_in_its_folder() {
     let (_folder, paths) = written(&made_up::study(12));
     let page = read(&paths.page);
     let folder = paths.page.parent().expect("a file has a folder");
@@ -162,7 +162,7 @@ fn every_name_in_a_report_is_escaped() {
 }
 
 #[test]
-fn a_headline_says_whether_the_lead_is_more_than_chance() {
+fn a_headline_states_whether_the_lead_is_significant() {
     let mut study = made_up::study(40);
     let (_folder, paths) = written(&study);
     assert!(read(&paths.page).contains("% more than greedy (95 % interval of the difference +$"));
@@ -197,7 +197,7 @@ fn published_figures_stand_in_the_report_of_the_paper_network_only() {
 }
 
 #[test]
-fn a_page_says_whose_days_it_shows() {
+fn a_page_names_the_origin_of_its_days() {
     let shown = |study: &ComparisonRecords| {
         let (_folder, paths) = written(study);
         read(&paths.page)

@@ -144,7 +144,7 @@ fn a_trace_is_explained_without_playing_other_days() {
 }
 
 #[test]
-fn page_and_text_say_what_json_says() {
+fn page_and_text_have_the_numbers_of_json() {
     let found = explained("paper", &greedy());
     let page = page(&found);
     assert!(page.starts_with(EXPLANATION_PAGE.opening), "the program recognises its own pages");
@@ -166,7 +166,7 @@ fn page_and_text_say_what_json_says() {
 }
 
 #[test]
-fn demand_that_no_aircraft_can_fly_is_counted_apart_and_not_ranked() {
+fn demand_out_of_reach_is_counted_separately_and_not_ranked() {
     // With a battery for the mean distance only, about half of all pairs are out of range.
     let mut near = vertifleet_core::Scenario::clone(&day("paper")).into_day();
     let distances_mi: Vec<f64> = near.distance_mi.cells().to_vec();
@@ -195,7 +195,7 @@ fn demand_that_no_aircraft_can_fly_is_counted_apart_and_not_ranked() {
 }
 
 #[test]
-fn an_outage_is_no_charging() {
+fn an_outage_does_not_count_as_charging() {
     let found = explained("disrupted", &greedy());
     assert!(found.account.aircraft.iter().any(|one| one.out_of_service_h > 0.0));
     let mut without = vertifleet_core::Scenario::clone(&day("disrupted")).into_day();

@@ -74,7 +74,7 @@ fn played(network: &Network, policies: &[&str]) -> Vec<(f64, f64)> {
 }
 
 #[test]
-fn no_design_with_any_policy_passes_what_is_proven() {
+fn no_design_with_any_policy_exceeds_the_proven_bound() {
     let folder = tempfile::tempdir().expect("a folder");
     let (records, files) =
         run(&sizing(Goal::MostProfit, &FACTORS).expect("a search"), folder.path());
@@ -126,7 +126,7 @@ fn an_interrupted_search_ends_with_the_same_bytes_and_another_is_refused() {
 }
 
 #[test]
-fn the_fleet_that_carries_a_share_is_no_smaller_than_what_is_proven() {
+fn the_fleet_that_carries_a_share_is_no_smaller_than_the_proven_minimum() {
     let folder = tempfile::tempdir().expect("a folder");
     let factors = ["fleet.0.count=10..40/2", "tariffs.aircraft_cost_usd_per_day=0"];
     let (records, _) = run(&sizing(Goal::Served(0.04), &factors).expect("a search"), folder.path());
@@ -162,7 +162,7 @@ fn the_spill_of_a_given_fleet_keeps_the_fleet() {
 }
 
 #[test]
-fn a_grid_without_the_network_as_it_is_says_whether_that_is_better() {
+fn a_grid_without_the_current_network_reports_whether_that_is_better() {
     let folder = tempfile::tempdir().expect("a folder");
     // The fleet has 40 aircraft.
     let few = sizing(Goal::MostProfit, &["fleet.0.count=2..6/2"]).expect("a search");

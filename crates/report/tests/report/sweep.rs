@@ -111,7 +111,7 @@ fn an_interrupted_sweep_ends_with_the_same_bytes() {
 }
 
 #[test]
-fn a_stopped_sweep_keeps_what_is_finished() {
+fn a_stopped_sweep_keeps_its_finished_cells() {
     let folder = tempfile::tempdir().expect("a folder");
     let journal = folder.path().join(JOURNAL);
     let begin = || {
@@ -239,7 +239,7 @@ fn closures_can_be_varied() {
 }
 
 #[test]
-fn what_cannot_be_swept_is_refused_before_anything_is_played() {
+fn an_invalid_sweep_is_refused_before_any_day_is_played() {
     let codes = [
         (vec!["fleet.7.count=1,2"], Design::Grid, "V123"),
         (vec!["fleet.0.colour=1,2"], Design::Grid, "V106"),

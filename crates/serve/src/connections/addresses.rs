@@ -71,7 +71,7 @@ mod tests {
     use super::Addresses;
 
     #[test]
-    fn an_address_has_so_many_connections_at_once_and_others_have_theirs() {
+    fn each_address_has_its_own_limit_of_connections() {
         let addresses = Addresses::new(2);
         let take = |address: &str| addresses.take(address.parse().expect("an address"));
         let (first, second) = (take("2001:db8::1"), take("2001:db8::2"));

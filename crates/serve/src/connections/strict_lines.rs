@@ -76,8 +76,8 @@ impl Head {
         None
     }
 
-    /// Reads the length of the body from a header. Returns false if it has none that is
-    /// unambiguous; the parser must then refuse the request.
+    /// Records the length of the body if a header contains it. Returns false if the value is
+    /// invalid or too long to inspect; the parser must then refuse the request.
     fn note_header(&mut self) -> bool {
         let Some(colon) = self.line.iter().position(|byte| *byte == b':') else { return true };
         let (name, value) = (&self.line[..colon], self.line[colon + 1..].trim_ascii());

@@ -49,7 +49,7 @@ fn a_proposal_has_its_reasons() {
 }
 
 #[test]
-fn a_late_policy_is_replaced_and_the_answer_says_so() {
+fn a_late_policy_is_replaced_and_named_in_the_answer() {
     let (_folder, service) = service();
     let day = service.new_day("rolling");
     let path = format!("{day}/aircraft/A01/decision?deadline_ms=0");
@@ -95,7 +95,7 @@ fn of_two_dispatchers_one_decides() {
 }
 
 #[test]
-fn several_events_are_taken_all_or_none() {
+fn several_events_are_applied_together_or_not_at_all() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let good = json!({"type": "out_of_service", "aircraft": "A02", "until": 30_000});
@@ -114,7 +114,7 @@ fn several_events_are_taken_all_or_none() {
 }
 
 #[test]
-fn what_reality_forces_is_taken_with_a_notice_that_stays() {
+fn reports_that_break_rules_are_accepted_with_a_lasting_notice() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let fewer = json!({"type": "stands", "vertiport": "V1", "stands": 0});
@@ -154,7 +154,7 @@ fn a_day_is_the_same_after_a_restart_and_can_be_read_at_any_event() {
 }
 
 #[test]
-fn the_stream_goes_on_where_a_reader_left() {
+fn a_stream_continues_after_the_last_event_of_its_reader() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let decide = |aircraft: &str| service.decide(&day, &json!({"aircraft": aircraft}));
@@ -219,7 +219,7 @@ fn wrong_requests_are_answered_with_a_code() {
 }
 
 #[test]
-fn tokens_say_who_may_do_what_and_who_did_it() {
+fn tokens_decide_rights_and_name_the_author() {
     let (folder, service) = service();
     let day = service.new_day("greedy");
     let tokens = Tokens::open(&Location::Folder(folder.path().to_owned())).expect("a store");
@@ -265,7 +265,7 @@ fn tokens_say_who_may_do_what_and_who_did_it() {
 }
 
 #[test]
-fn the_service_measures_itself() {
+fn the_service_publishes_metrics() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     assert_eq!(service.decide(&day, &json!({"aircraft": "A01"})).status, 201);
@@ -303,7 +303,7 @@ fn an_address_of_others_needs_protection_and_a_token() {
 }
 
 #[test]
-fn a_slip_of_the_pen_does_not_move_the_clock() {
+fn an_implausible_time_does_not_move_the_clock() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let events = format!("{day}/events");
@@ -335,7 +335,7 @@ fn an_aircraft_that_is_not_reported_is_overdue() {
 }
 
 #[test]
-fn a_proposal_for_later_leaves_the_prices_of_now_alone() {
+fn a_proposal_for_later_does_not_change_the_current_prices() {
     let (_folder, service) = service();
     let (asked, plain) = (service.new_day("prices"), service.new_day("prices"));
     let proposal =
@@ -345,7 +345,7 @@ fn a_proposal_for_later_leaves_the_prices_of_now_alone() {
 }
 
 #[test]
-fn an_answer_that_comes_again_has_its_headers_again() {
+fn a_repeated_answer_has_its_headers() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let key = [("idempotency-key", "one")];
@@ -358,7 +358,7 @@ fn an_answer_that_comes_again_has_its_headers_again() {
 }
 
 #[test]
-fn each_token_has_keys_of_its_own_and_is_told_what_it_may_do() {
+fn each_token_has_its_own_keys_and_can_read_its_role() {
     let (_folder, location) = folder();
     let token = bearers(&location);
     let (one, two) = (token("one", Role::Dispatch), token("two", Role::Admin));
@@ -376,7 +376,7 @@ fn each_token_has_keys_of_its_own_and_is_told_what_it_may_do() {
 }
 
 #[test]
-fn the_dashboard_and_the_alerts_ask_for_what_is_measured() {
+fn the_dashboard_and_the_alerts_use_existing_metrics() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     service.decide(&day, &json!({"aircraft": "A01"}));
@@ -396,7 +396,7 @@ fn the_dashboard_and_the_alerts_ask_for_what_is_measured() {
 }
 
 #[test]
-fn no_client_says_that_a_policy_decided_and_no_member_is_there_twice() {
+fn no_client_may_set_the_policy_or_repeat_a_member() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let path = format!("{day}/events");
@@ -415,7 +415,7 @@ fn no_client_says_that_a_policy_decided_and_no_member_is_there_twice() {
 }
 
 #[test]
-fn what_lies_in_the_past_is_refused_and_what_the_rules_forbid_has_a_notice() {
+fn events_in_the_past_are_refused_and_forbidden_ones_have_a_notice() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let report = |event: Value| service.event(&day, &event);

@@ -23,7 +23,7 @@ fn change(service: &Running, method: &str, path: &str, if_match: &str) -> (u16, 
 }
 
 #[test]
-fn a_day_that_has_gone_on_is_not_archived_and_not_deleted() {
+fn a_day_that_has_changed_is_not_archived_and_not_deleted() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let moved = (412, json!("V605"));
@@ -50,7 +50,7 @@ fn a_day_that_has_gone_on_is_not_archived_and_not_deleted() {
 }
 
 #[test]
-fn an_archived_day_goes_on_where_it_was_when_it_is_opened_again() {
+fn a_reopened_day_continues_in_its_former_state() {
     let (folder, service) = service();
     let day = service.new_day("greedy");
     assert_eq!(clock(&service, &day).status, 201);
@@ -82,7 +82,7 @@ fn an_archived_day_goes_on_where_it_was_when_it_is_opened_again() {
 }
 
 #[test]
-fn nothing_is_written_to_a_day_after_it_was_archived() {
+fn an_archived_day_accepts_no_writes() {
     let (_folder, service) = service();
     for _ in 0..5 {
         let day = service.new_day("greedy");
@@ -120,7 +120,7 @@ fn nothing_is_written_to_a_day_after_it_was_archived() {
 }
 
 #[test]
-fn only_admins_open_days_again() {
+fn only_admins_reopen_days() {
     let (_folder, location) = folder();
     let token = bearers(&location);
     let (dispatch, admin) = (token("one", Role::Dispatch), token("two", Role::Admin));
@@ -138,7 +138,7 @@ fn only_admins_open_days_again() {
 
 #[cfg(unix)]
 #[test]
-fn services_that_share_a_database_agree_on_what_is_archived() {
+fn services_that_share_a_database_agree_on_archived_days() {
     let database = vertifleet_testkit::Postgres::start();
     let location = Location::Postgres(database.url());
     let (one, two) = (Running::start_at(location.clone()), Running::start_at(location));

@@ -29,7 +29,7 @@ fn a_person_decides_and_changes_their_mind() {
 }
 
 #[test]
-fn a_hold_is_not_taken_back_when_nothing_can_be_decided_any_more() {
+fn a_hold_cannot_be_cancelled_after_the_last_decision() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let state = service.state(&day);

@@ -150,7 +150,7 @@ fn requests_become_spans_within_the_traces_of_their_callers() {
 }
 
 #[test]
-fn a_collector_that_has_gone_holds_up_no_request() {
+fn an_unreachable_collector_delays_no_request() {
     let silent = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");
     let silent_address = silent.local_addr().expect("an address");
     let gone = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).expect("a port");

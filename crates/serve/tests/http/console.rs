@@ -28,7 +28,7 @@ fn the_console_needs_no_token_and_its_data_does() {
 }
 
 #[test]
-fn the_policy_of_the_console_is_the_one_that_it_is_tested_under() {
+fn the_content_policy_of_the_console_equals_the_tested_one() {
     let (_folder, service) = service();
     let page = ureq::get(&service.url).call().expect("the page");
     let sent = page.headers()["content-security-policy"].to_str().expect("text");

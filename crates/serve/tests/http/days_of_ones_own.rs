@@ -104,7 +104,7 @@ fn a_network_is_uploaded_listed_and_used() {
 }
 
 #[test]
-fn a_day_has_the_forecast_the_places_and_the_date_that_it_is_given() {
+fn a_day_has_the_given_forecast_places_and_date() {
     let (_folder, service) = service();
     let body = json!({
         "network": "new-york", "name": "Monday", "date": "2026-11-23", "policy": "greedy",
@@ -149,7 +149,7 @@ fn a_day_has_the_forecast_the_places_and_the_date_that_it_is_given() {
 }
 
 #[test]
-fn what_a_day_cannot_be_is_refused_in_words() {
+fn an_invalid_day_is_refused_with_a_message() {
     let (_folder, service) = service();
     for (body, said) in [
         (json!({"network": "paper", "date": "2026-11-23"}), "needs a `time_zone`"),
@@ -174,7 +174,7 @@ fn what_a_day_cannot_be_is_refused_in_words() {
 }
 
 #[test]
-fn a_policy_of_ones_own_decides() {
+fn an_uploaded_policy_decides() {
     let (folder, service) = service();
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/any/gcaps-x.safetensors");
     let weights = std::fs::read(path).expect("the shipped weights");
@@ -223,7 +223,7 @@ fn a_policy_of_ones_own_decides() {
 }
 
 #[test]
-fn an_override_records_what_the_policy_would_have_done() {
+fn an_override_records_the_choice_of_the_policy() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let proposal = service.get(&format!("{day}/aircraft/A01/decision")).json;
@@ -241,7 +241,7 @@ fn an_override_records_what_the_policy_would_have_done() {
 }
 
 #[test]
-fn the_state_says_who_needs_a_decision_who_flies_and_until_when_things_are_closed() {
+fn the_state_lists_waiting_aircraft_flights_and_closures() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let send = |event: Value| {

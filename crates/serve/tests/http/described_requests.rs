@@ -18,7 +18,7 @@ fn parameter(path: &str, method: &str, name: &str) -> Value {
 }
 
 #[test]
-fn what_comes_after_an_event_that_was_not_is_not_found() {
+fn events_after_an_unknown_event_are_not_found() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let clock = json!({"type": "clock"});
@@ -120,7 +120,7 @@ fn numbers_are_taken_up_to_the_described_maximum() {
 }
 
 #[test]
-fn events_have_no_members_but_those_described() {
+fn events_have_only_the_described_members() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let path = format!("{day}/events");
@@ -152,7 +152,7 @@ fn events_have_no_members_but_those_described() {
 }
 
 #[test]
-fn policies_of_ones_own_have_plain_names() {
+fn uploaded_policies_have_plain_names() {
     let (_folder, service) = service();
     let pattern = parameter("/v1/policies/{policy}", "put", "policy")["pattern"].clone();
     assert_eq!(pattern, json!("^[a-z0-9_-][a-z0-9._-]{0,39}$"));

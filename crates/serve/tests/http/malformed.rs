@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::api::service;
 
 #[test]
-fn a_reason_is_no_longer_than_people_write() {
+fn the_length_of_a_reason_is_limited() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let place = service.state(&day)["aircraft"][0]["place"].clone();
@@ -79,7 +79,7 @@ fn an_event_has_each_member_once_and_no_other() {
 }
 
 #[test]
-fn a_clock_that_ends_the_day_for_ever_is_refused() {
+fn a_clock_beyond_the_end_of_the_day_is_refused() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let clock = |time: &str| service.event(&day, &json!({"type": "clock", "time": time})).status;

@@ -53,7 +53,7 @@ fn a_live_day_is_the_simulated_day_to_the_cent() {
 }
 
 #[test]
-fn a_list_of_days_says_how_far_each_is() {
+fn a_list_of_days_has_the_progress_of_each() {
     let (_folder, service) = service();
     let over = operated(&service, &day("disrupted", 2004), "greedy");
     let begun = service.new_day("greedy");
@@ -80,7 +80,7 @@ fn a_day_that_others_decide_is_the_simulated_day_to_the_cent() {
 }
 
 #[test]
-fn people_decide_in_an_order_of_their_own_and_change_their_minds() {
+fn people_may_decide_in_any_order_and_cancel_decisions() {
     let (_folder, service) = service();
     // Few stands, so that the order of departures matters.
     let text =

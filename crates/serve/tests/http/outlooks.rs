@@ -41,7 +41,7 @@ fn an_outlook_is_the_simulated_day_and_what_if_leaves_the_day_alone() {
 }
 
 #[test]
-fn an_outlook_from_a_moment_that_has_passed_is_the_one_of_then() {
+fn an_outlook_from_an_earlier_moment_equals_the_one_at_that_time() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let asked = |query: &str| service.get(&format!("{day}/outlook?{query}"));
@@ -71,7 +71,7 @@ fn large_day(service: &Running) -> String {
 }
 
 #[test]
-fn an_outlook_that_takes_too_long_is_played_by_a_quick_policy_which_says_so() {
+fn an_outlook_that_takes_too_long_is_played_by_a_quick_policy_and_names_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let limits = Limits { request: Duration::from_secs(20), ..Limits::default() };
     let service = Running::start_with(Location::Folder(folder.path().to_owned()), limits);
@@ -91,7 +91,7 @@ fn an_outlook_that_takes_too_long_is_played_by_a_quick_policy_which_says_so() {
 }
 
 #[test]
-fn outlooks_whose_clients_have_gone_keep_no_turn() {
+fn outlooks_of_disconnected_clients_hold_no_turn() {
     let (_folder, service) = service();
     let (large, day) = (large_day(&service), service.new_day("greedy"));
     let address = service.url.trim_start_matches("http://");

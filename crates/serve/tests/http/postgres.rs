@@ -157,7 +157,7 @@ fn a_new_day_that_is_asked_for_at_two_services_with_one_key_is_made_once() {
 }
 
 #[test]
-fn of_two_writers_who_expect_the_same_event_one_is_told_that_the_day_has_moved() {
+fn of_two_writers_who_expect_the_same_event_one_is_refused() {
     let database = Postgres::start();
     let services = [(); 2].map(|()| Running::start_at(location(&database)));
     let path = services[0].new_day("greedy");
@@ -181,7 +181,7 @@ fn of_two_writers_who_expect_the_same_event_one_is_told_that_the_day_has_moved()
 }
 
 #[test]
-fn what_one_service_does_to_a_day_the_other_one_knows() {
+fn changes_by_one_service_reach_the_other() {
     let database = Postgres::start();
     let [one, two] = [(); 2].map(|()| Running::start_at(location(&database)));
     let path = one.new_day("greedy");
@@ -266,7 +266,7 @@ fn check_writes(services: &[Running; 2], during: impl FnOnce(&str)) {
 }
 
 #[test]
-fn a_database_that_crashes_loses_nothing_that_was_acknowledged() {
+fn a_database_crash_loses_no_acknowledged_event() {
     let mut database = Postgres::start();
     let services = [(); 2].map(|()| Running::start_at(location(&database)));
     check_writes(&services, |_| {
@@ -280,7 +280,7 @@ fn a_database_that_crashes_loses_nothing_that_was_acknowledged() {
 }
 
 #[test]
-fn a_database_that_hangs_is_said_to_and_loses_nothing_that_was_acknowledged() {
+fn a_hanging_database_is_reported_and_loses_no_acknowledged_event() {
     let database = Postgres::start();
     let services = [(); 2].map(|()| Running::start_at(location(&database)));
     check_writes(&services, |path| {

@@ -27,7 +27,7 @@ fn connect(service: &Running) -> TcpStream {
 }
 
 #[test]
-fn it_speaks_tls_with_a_certificate_of_ones_own() {
+fn the_service_uses_tls_with_the_users_certificate() {
     let folder = tempfile::tempdir().expect("a folder");
     let made = rcgen::generate_simple_self_signed(["localhost".to_owned()]).expect("a certificate");
     let (certificate, key) = (folder.path().join("tls.pem"), folder.path().join("tls.key"));
@@ -79,7 +79,7 @@ fn certificates_to_trust_must_be_there() {
 }
 
 #[test]
-fn connections_that_say_nothing_are_closed() {
+fn silent_connections_are_closed() {
     let (_folder, service) =
         limited(Limits { head: Duration::from_millis(200), ..Limits::default() });
     let mut silent = connect(&service);
@@ -216,7 +216,7 @@ fn a_body_of_most_requests_is_short() {
 }
 
 #[test]
-fn a_token_that_asks_too_often_waits_and_others_do_not() {
+fn a_token_over_its_limit_is_refused_and_others_are_not() {
     let (_folder, location) = folder();
     let token = bearers(&location);
     let (busy, calm) = (token("busy", Role::Read), token("calm", Role::Read));
@@ -233,7 +233,7 @@ fn a_token_that_asks_too_often_waits_and_others_do_not() {
 }
 
 #[test]
-fn what_a_token_may_not_do_counts_as_asked_with_it() {
+fn refused_requests_count_against_their_token() {
     let (_folder, location) = folder();
     let bearer = bearers(&location)("screen", Role::Read);
     let service = Running::start_with(location, Limits { requests_per_s: 2, ..Limits::default() });
@@ -270,7 +270,7 @@ fn the_stream_of_a_token_ends_when_it_is_revoked() {
 }
 
 #[test]
-fn without_tokens_pages_of_other_machines_may_do_nothing() {
+fn without_tokens_requests_from_foreign_pages_are_refused() {
     let (_folder, service) = limited(Limits::default());
     let make = |headers: &[(&str, &str)]| {
         let made = service.send("POST", "/v1/days", headers, br#"{"network": "paper"}"#);
@@ -297,7 +297,7 @@ fn behind_a_proxy_there_must_be_a_token_on_this_machine_too() {
 }
 
 #[test]
-fn tokens_have_names_of_their_own_and_answers_say_how_to_ask() {
+fn tokens_have_unique_names_and_answers_name_the_scheme() {
     let (_folder, location) = folder();
     let tokens = Tokens::open(&location).expect("a store");
     let token = tokens.make("console", Role::Read).expect("a token");

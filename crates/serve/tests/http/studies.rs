@@ -190,7 +190,7 @@ fn a_study_is_made_once_for_each_key() {
 }
 
 #[test]
-fn what_cannot_be_played_is_refused_at_once() {
+fn a_study_that_cannot_be_played_is_refused_at_once() {
     let (_folder, service) = service();
     for (body, status, code) in [
         (json!({"network": "paper", "policies": ["greedy"], "days": 0}), 400, "V402"),

@@ -12,7 +12,7 @@ fn passengers(demand: &Value, from: &str, to: &str) -> u64 {
 }
 
 #[test]
-fn what_is_booked_waits_and_what_departs_does_not() {
+fn booked_passengers_wait_until_they_depart() {
     let (_folder, service) = service();
     let day = service.new_day("greedy");
     let waiting = || service.get(&format!("{day}/demand"));

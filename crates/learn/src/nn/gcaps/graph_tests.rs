@@ -40,7 +40,7 @@ fn no_graph_and_no_attention() {
 }
 
 #[test]
-fn no_attention_beside_the_encoder_of_the_paper() {
+fn no_attention_with_the_encoder_of_the_paper() {
     check(GraphSettings { attention: false, ..GraphSettings::default() });
 }
 
