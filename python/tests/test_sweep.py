@@ -1,4 +1,4 @@
-"""Sweeps: every combination is a comparison of its own, and columns and table have its results."""
+"""Sweeps: every combination is a separate comparison, and columns and table have its results."""
 
 import json
 import pickle

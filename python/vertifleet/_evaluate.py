@@ -103,9 +103,9 @@ class Verification:
     valid: bool
     """Whether every claim holds that can be verified."""
     bound_share: float | None
-    """The mean share of the bounds as computed anew; ``None`` if a day cannot be played."""
+    """The mean share of the bounds as computed again; ``None`` if a day cannot be played."""
     profit_usd: float | None
-    """The mean profit of a day as computed anew, dollars; ``None`` if a day cannot be played."""
+    """The mean profit of a day as computed again, dollars; ``None`` if a day cannot be played."""
     findings: tuple[str, ...]
     """What does not hold."""
 
@@ -113,7 +113,7 @@ class Verification:
 def verify(result: str | os.PathLike[str]) -> Verification:
     """Verifies a result file that `Evaluation.save` or ``vertifleet evaluate --results`` wrote.
 
-    The days are drawn anew, the choices in the file are played, the schedules are judged by the independent
+    The days are drawn again, the choices in the file are played, the schedules are judged by the independent
     checker, and every profit, bound and share is computed again. Not verified is who the policy is, what it
     saw, how long it took, and what the file says about it.
 
@@ -142,7 +142,7 @@ class Suite:
     name: str
     description: str
     network: Network | None
-    """The network that all days are drawn from; ``None`` if each day has a network of its own."""
+    """The network that all days are drawn from; ``None`` if each day has a different network."""
     days: tuple[Scenario, ...]
     upper_bound_usd: NDArray[np.float64]
     """The certified upper bound of the profit of each day, dollars [days]."""

@@ -167,8 +167,8 @@ impl Suite {
         })
     }
 
-    /// The network that all of its days are drawn from; `None` if each day has a network of its
-    /// own.
+    /// The network that all of its days are drawn from; `None` if each day has a different
+    /// network.
     pub fn network(&self) -> Option<&'static str> {
         match self.drawn_from {
             DrawnFrom::Network(name) => Some(name),

@@ -76,7 +76,7 @@ def on_stage(folder):
         if told(f"crash-{seed}"):
             (folder / f"crash-{seed}").unlink()
             os.kill(os.getpid(), signal.SIGKILL)
-        # The doomed node plays one part to its end and hangs in the next; the other nodes wait for that.
+        # The doomed node plays one part to its end and hangs in the next; the others wait for that.
         if told(f"doomed-{node}") and parts > 0:
             (folder / "hanging").touch()
             time.sleep(LONG_S)

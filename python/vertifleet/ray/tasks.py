@@ -103,8 +103,8 @@ def played(
 
 
 def _tasks(networks: Collection[int], drawn: DrawnDays, days_per_task: int | None) -> list[Task]:
-    """The days of these networks, in tasks; by default there are so many of them that every CPU gets
-    TASKS_PER_CPU.
+    """The days of these networks, in tasks; by default enough of them for TASKS_PER_CPU on every
+    CPU.
     """
     each = days_per_task or max(math.ceil(len(networks) * drawn.days / (TASKS_PER_CPU * _cpus())), 1)
     end = drawn.seed + drawn.days

@@ -38,7 +38,7 @@ class FleetModule(TorchRLModule, ValueFunctionAPI):
         return {Columns.ACTION_DIST_INPUTS: logits}
 
     def _forward_train(self, batch: dict[str, Any], **_: Any) -> dict[str, Any]:
-        # The values are returned as embeddings, because RLlib hands embeddings on to `compute_values`.
+        # The values are returned as embeddings: RLlib hands embeddings on to `compute_values`.
         logits, values = self._pass(batch)
         return {Columns.ACTION_DIST_INPUTS: logits, Columns.EMBEDDINGS: values}
 

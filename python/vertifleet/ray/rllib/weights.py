@@ -123,7 +123,7 @@ def _settings(config: Any, steps: int) -> dict[str, Any] | None:
         {
             "total_steps": falls_for or max(steps, 1),
             "n_envs": days,
-            # This is a fraction, which no setting may be, if the roll-out is not the same for all days.
+            # This is a fraction, which no setting may be, if the roll-out differs between days.
             "n_steps": config.total_train_batch_size / days,
             "batch_size": _batch_size(config),
             "n_epochs": config.num_epochs,
