@@ -67,7 +67,8 @@ impl Network {
         Self::told(changes.py(), network.map_err(Failure::from)?, source)
     }
 
-    /// The Python expression that made the network. A report contains it in its command.
+    /// The Python expression that made the network, for people to read. A report contains it in its
+    /// command.
     #[getter]
     fn source(&self) -> &str {
         &self.source
@@ -97,7 +98,8 @@ impl Network {
         self.network.fleet_size()
     }
 
-    /// The divisors of the features of learned policies, as in the headers of weight files.
+    /// The numbers that the features of learned policies are divided by, as in the headers of
+    /// weight files.
     #[getter]
     fn feature_scales<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         plain(py, &self.network.feature_scales())
@@ -118,8 +120,8 @@ impl Network {
 
     /// Draws the day of a seed. The same seed gives the same day everywhere.
     ///
-    /// Days for different purposes ("comparison", "validation", "training") are disjoint, so that
-    /// no policy is judged on a day that it learned from.
+    /// Days for different purposes ("comparison", "validation", "training") are never the same, so
+    /// that no policy is judged on a day that it learned from.
     #[pyo3(signature = (seed, purpose = "comparison"))]
     fn draw(&self, seed: WholeNumber, purpose: &str) -> Result<Scenario, Failure> {
         let seed = seed.of("seed")?;
@@ -168,37 +170,20 @@ impl Network {
 
 impl Network {
     /// Wraps a network that has just been read, and emits a Python warning for everything that
-    /// looks wrong with it, except the warnings in `said`.
-    fn told(
-        py: Python<'_>,
-        network: core::Network,
-        source: String,
-        said: &mut HashSet<String>,
-    ) -> PyResult<Self> {
+    /// looks wrong with it.
+    fn told(py: Python<'_>, network: core::Network, source: String) -> PyResult<Self> {
         for warning in network.warnings() {
             warn(py, &format!("[{}] {source}: {warning}", warning.code()))?;
         }
         Ok(Self::of(network, source))
     }
 
-    /// This network with these changes. Emits its warnings as Python warnings, except those in
-    /// `said`.
-    pub(crate) fn changed_with_warnings(
-        &self,
-        changes: &Bound<'_, PyAny>,
-        network: core::Network,
-        said: &mut HashSet<String>,
-    ) -> PyResult<Self> {
-        let source = format!("{}.changed({})", self.source, changes.repr()?);
-        Self::told(changes.py(), network, source, said)
-    }
-
     pub(crate) fn of(network: core::Network, source: String) -> Self {
         Self { network: Arc::new(network), source }
     }
 
-    /// Checks that a day has as many vertiports as this network, for which the observation arrays
-    /// are allocated.
+    /// Checks that a day has as many vertiports as this network, which is the number that the
+    /// observation arrays have room for.
     pub(crate) fn check_fits(&self, day: &core::Scenario) -> Result<(), Failure> {
         let (expected, found) = (self.network.vertiports().len(), day.vertiports.len());
         if expected == found {

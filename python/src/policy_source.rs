@@ -33,7 +33,7 @@ impl Weights<'_> {
         }
     }
 
-    /// The path of the file, if the path was given.
+    /// The path of the file, if that is what was given.
     pub(crate) fn path(&self) -> Option<&Path> {
         match self {
             Self::Model(_) => None,
@@ -51,7 +51,7 @@ impl From<Weights<'_>> for PolicySource {
     }
 }
 
-/// The results of calls of the caller's Python code, on all threads.
+/// What calls of the caller's own Python code leave behind, on whichever threads they were made.
 #[derive(Clone, Default)]
 pub(crate) struct OwnCalls(Arc<Mutex<Left>>);
 
@@ -78,8 +78,13 @@ impl OwnCalls {
         self.lock().raised.take()
     }
 
-    /// The outcome of work that made these calls: an exception that one of them raised takes
-    /// precedence over an error.
+    /// Whether an exception was raised, after which no function is called any more.
+    pub(crate) fn have_raised(&self) -> bool {
+        self.lock().raised.is_some()
+    }
+
+    /// The outcome of work that made these calls: an exception that one of them raised goes before
+    /// an error.
     pub(crate) fn answered<T>(&self, outcome: Result<T, Error>) -> PyResult<T> {
         match self.raised() {
             Some(error) => Err(error),
@@ -103,7 +108,7 @@ impl OwnCalls {
 }
 
 /// Converts a Python value into a policy source: weights, or a policy of the caller ([`of_own`]),
-/// which observes days as days of `network`.
+/// which sees days as days of `network`.
 pub(crate) fn policy_source(
     value: &Bound<'_, PyAny>,
     name: &str,
@@ -117,7 +122,8 @@ pub(crate) fn policy_source(
 }
 
 /// A policy from a Python object: a function from an observation to an action, or an object that
-/// chooses. The Python side of the package recognises these objects and converts views for them.
+/// chooses. The Python side of the package says which objects these are, and how views are shown to
+/// them.
 pub(crate) fn of_own(
     value: &Bound<'_, PyAny>,
     name: &str,

@@ -84,7 +84,7 @@ fn last_row(curve: &Curve) -> Option<Map<String, Value>> {
     Some(curve.columns().iter().cloned().zip(cells).collect())
 }
 
-/// A network, or the name of a source that draws a new network for each day.
+/// A network, or the name of networks that are drawn, a new one for each day.
 #[derive(FromPyObject)]
 pub(crate) enum WorldArgument {
     Drawn(String),
@@ -100,8 +100,8 @@ impl WorldArgument {
     }
 }
 
-/// Trains a policy on a network, or on a new network for each day. Ctrl-C ends the run with a
-/// checkpoint, from which `resume` continues it.
+/// Trains a policy on a network, or on networks drawn for each day. Ctrl-C
+/// ends the run with a checkpoint, from which `resume` continues it.
 #[pyfunction]
 #[pyo3(signature = (
     network, policy, *, out, preset = "default", settings = None, seed = None, begin_with = None, resume = false,
@@ -197,8 +197,8 @@ impl TrainingWatch for Shown {
     }
 
     fn could_not_write(&self, error: &Error) {
-        let warning = format!("{error}; the training continues");
-        // If the warning raises an exception, the training still continues.
+        let warning = format!("{error}; the training goes on");
+        // If the warning itself raises an exception, the training still goes on.
         let _ = Python::attach(|py| warn(py, &warning));
     }
 }

@@ -88,7 +88,9 @@ class Network:
         """Number of aircraft."""
     @property
     def feature_scales(self) -> dict[str, float]:
-        """The divisors of the features of learned policies, as in the headers of weight files."""
+        """The numbers that the features of learned policies are divided by, as in the headers of weight
+        files.
+        """
     @property
     def mean_demand(self) -> _Float:
         """Mean demand, passengers [periods, vertiports, vertiports]. The demand of the drawn days scatters
@@ -103,13 +105,15 @@ class Network:
         """Restores a pickled network."""
     @property
     def source(self) -> str:
-        """The Python expression that made the network. A report contains it in its command."""
+        """The Python expression that made the network, for people to read. A report contains it in its
+        command.
+        """
     def draw(
         self, seed: SupportsIndex, purpose: Literal["comparison", "validation", "training"] = "comparison"
     ) -> Scenario:
         """Draws the day of a seed. The same seed gives the same day everywhere.
 
-        Days for different purposes ("comparison", "validation", "training") are disjoint, so that no
+        Days for different purposes ("comparison", "validation", "training") are never the same, so that no
         policy is judged on a day that it learned from.
         """
 
@@ -857,6 +861,6 @@ def train(
     threads: SupportsIndex | None = None,
     watch: Callable[[dict[str, Any]], object] | None = None,
 ) -> Training:
-    """Trains a policy on a network, or on a new network for each day. Ctrl-C ends the run with a
+    """Trains a policy on a network, or on networks drawn for each day. Ctrl-C ends the run with a
     checkpoint, from which `resume` continues it.
     """

@@ -82,7 +82,9 @@ impl Policy for GcapsX {
         if self.rollouts.is_some() {
             return self.choose(decision, view);
         }
-        Ok(PricedChoice::best(self.scored.iter().copied()).unwrap_or(decision.at))
+        // As in `choose`, the first of the shortlist if no worth is a number.
+        let first = self.scored.first().map_or(decision.at, |choice| choice.to);
+        Ok(PricedChoice::best(self.scored.iter().copied()).unwrap_or(first))
     }
 
     /// Worth of each choice of the shortlist by prices and network, dollars, before any roll-outs.

@@ -27,9 +27,9 @@ it('omits hints for programs', () => {
   expect(problemText(archived)).toEqual({ title: 'Day “d” is archived.', code: 'V608' })
 })
 
-it('says everything else as the service does, as sentences and with the code', () => {
+it('shows other messages of the service as sentences with the code', () => {
   const problem = new ProblemError(412, 'V605', 'the day has gone on', 'read the day again, and decide again')
-  expect(said(problem)).toEqual({
+  expect(problemText(problem)).toEqual({
     title: 'The day has gone on.',
     hint: 'Read the day again, and decide again.',
     code: 'V605',

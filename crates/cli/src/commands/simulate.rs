@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     if let Some(warning) = policy.warning_for(spec.name(), &scenario) {
         warn(Code(310), &warning);
     }
-    // Ctrl-C ends the program, so the policy needs no stop request.
+    // Ctrl-C ends the program itself, so the policy is never asked to stop.
     let (trace, totals) = policy.play(spec.name(), &scenario, &Stop::default())?;
     if let Some(path) = &arguments.trace {
         trace.write(&scenario, path)?;
@@ -45,8 +45,7 @@ pub(crate) fn run(arguments: &SimulateArguments) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Checks that neither the trace nor the page would replace an input file or a file of another
-/// kind.
+/// Checks that neither the trace nor the page would replace a file that is read, or one of others.
 fn claim(arguments: &SimulateArguments, spec: &PolicySpec) -> Result<(), Failure> {
     let mut outputs = Outputs::new(arguments.force);
     outputs.reads(&arguments.scenario);
@@ -79,9 +78,10 @@ fn text(totals: &DayTotals, scenario: &Scenario, policy: &str) -> String {
         ("aircraft cost", totals.aircraft_cost_usd),
         ("site cost    ", totals.site_cost_usd),
     ];
-    // The cost of aircraft is printed even if it is 0, because the network may not state it.
-    let beside = beside.into_iter().filter(|&(name, cost)| cost != 0.0 || name == "aircraft cost");
-    lines.extend(beside.map(|(name, cost)| format!("  {name}   {cost:>12.2} $")));
+    // What aircraft cost is said also if it is nothing: a network may not know it.
+    let fixed_costs =
+        fixed_costs.into_iter().filter(|&(name, cost)| cost != 0.0 || name == "aircraft cost");
+    lines.extend(fixed_costs.map(|(name, cost)| format!("  {name}   {cost:>12.2} $")));
     lines.extend([
         format!(
             "  reward          {:>12.5}    of {:.0} $ potential",

@@ -43,19 +43,18 @@ pub(crate) fn run(arguments: &SweepArguments) -> Result<ExitCode, Failure> {
     let mut sweep = Sweep::new(request, &never)?;
     warn_of_demand(&network);
     warn_unserved_days(sweep.first_day()?.as_ref());
-    // Ctrl-C ends the program; the finished cells are on disk.
-    let (stop, folder) = (Stop::default(), &arguments.out);
-    let records = sweep.run(folder, command(), arguments.force, &stop, |done, all| {
-        if done > 0 {
-            eprintln!("{done} of {all} cells were there already");
-        }
-        let bar = Bar::new(all as u64, "cells");
-        bar.already_done(done as u64);
-        move || bar.advance(1)
-    })?;
-    let summary = SweepReport::of(&records)?;
-    let report = vertifleet_report::sweep(&summary, &records);
-    records.write_journal(folder)?;
+    make_folder(folder)?;
+    let (done, all) = (sweep.keep_in(&folder.join(JOURNAL), arguments.force)?, sweep.playable());
+    if done > 0 {
+        eprintln!("{done} of {all} cells were there already");
+    }
+    let bar = Bar::new(all as u64, "cells");
+    bar.already_done(done as u64);
+    sweep.run(&never, &|| bar.advance(1))?;
+    drop(bar);
+    let summary = SweepReport::of(&sweep, command())?;
+    let report = vertifleet_report::sweep(&summary, &sweep);
+    sweep.write_journal(folder)?;
     let page = folder::write_beside_journal(&report, folder)?;
     print(&if arguments.json { summary.to_json() } else { report.text() })?;
     eprintln!("report: {}", page.display());

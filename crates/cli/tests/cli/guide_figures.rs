@@ -120,7 +120,7 @@ fn the_day_of_operations_has_the_figures_of_the_service() {
     post(&format!("{day}/decisions"), &by_hand);
     post(&format!("{day}/events"), &json!({"type": "undone", "aircraft": "A02"}));
     let outlook = dollars(&get(&format!("{day}/outlook"))["totals"]["profit_usd"]);
-    assert!(prose.contains(&format!("expected to earn: {outlook} here")), "{outlook}");
+    assert!(prose.contains(&format!("expected profit of the day: {outlook} here")), "{outlook}");
     let closed = json!({"type": "closed", "routes": {"vertiport": "V1"}, "until": "12:00:00"});
     let what_if = post(&format!("{day}/what-if"), &json!({"events": [closed]}));
     let what_if = dollars(&what_if["what_if"]["totals"]["profit_usd"]);

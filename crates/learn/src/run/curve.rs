@@ -37,7 +37,7 @@ pub enum Cell {
 impl Curve {
     /// The path at which `train` writes the learning curve of these weights: `gcaps-curve.csv` in
     /// the folder of `gcaps.safetensors`.
-    pub fn beside(weights: &Path) -> PathBuf {
+    pub fn next_to(weights: &Path) -> PathBuf {
         weights.with_file_name(format!("{}-curve.csv", name(weights)))
     }
 

@@ -155,7 +155,7 @@ fn a_checkpoint_of_another_run_is_refused() {
         let asked = plan(policy.clone());
         asked.clone().start().expect("a plan").write_checkpoint(&path).expect("a file");
         assert!(
-            refused(TrainingRequest { seed: 9, ..asked.clone() }, &path).contains("seed 3, but 9")
+            refused(TrainingRequest { seed: 9, ..asked.clone() }, &path).contains("seed 3, not 9")
         );
         assert!(refused(plan_with(policy, &[setting]), &path).contains(setting.0));
         assert!(
