@@ -29,7 +29,7 @@ pub(crate) use planning::{
 pub(crate) use service::{OperateArguments, ServeAction, ServeArguments, Speed, TokenAction};
 
 /// The help of arguments that several commands take.
-const NETWORK: &str = "Network file, the name of a shipped network (paper, disrupted, new-york, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER";
+const NETWORK: &str = "Network file, the name of a shipped network (paper, paper-quick, disrupted, new-york, new-york-quick, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER";
 const FORCE: &str =
     "Replace a file that this program did not write or that is read-only; never an input file";
 const STEP: &str = "Longest price interval of the bound, minutes, 1 to 60; a shorter one never loosens the bound, and takes longer";
@@ -215,6 +215,10 @@ pub(crate) struct BoundArguments {
     pub(crate) scenarios: Vec<PathBuf>,
     #[arg(long, help = STEP, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
+    /// Levels of charge on days that charge as needed, 4 to 16; more give a lower bound and take
+    /// longer
+    #[arg(long, value_name = "N", default_value_t = 4)]
+    pub(crate) levels: u16,
     /// Also bound the mean profit without knowledge of take-off delays, on days drawn from this
     /// network
     #[arg(long, value_name = "NETWORK")]

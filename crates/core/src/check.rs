@@ -9,6 +9,7 @@ use crate::limits::{self, Limits, entries};
 use crate::{Day, Error, FormatError, Matrix, Scenario, Time};
 
 mod beyond;
+mod energy;
 
 impl Day {
     /// Checks every rule; `origin` names the file, or the other source of the day, in messages.
@@ -107,6 +108,7 @@ impl Check<'_> {
         self.vertiports()?;
         self.aircraft_types()?;
         self.aircraft()?;
+        self.start_charges()?;
         self.distances()?;
         self.money()?;
         self.demand()?;
@@ -189,6 +191,9 @@ impl Check<'_> {
             if let Some(chargers) = vertiport.chargers {
                 number(chargers.into(), &limits::CHARGERS, "chargers")?;
             }
+            if let Some(charger_kw) = vertiport.charger_kw {
+                number(charger_kw, &limits::CHARGE_KW, "charger_kw")?;
+            }
             number(vertiport.stand_cost_usd, &limits::MONEY_USD, "stand_cost")?;
             number(vertiport.charger_cost_usd, &limits::MONEY_USD, "charger_cost")?;
             if let Some(degrees) = vertiport.degrees {
@@ -217,6 +222,7 @@ impl Check<'_> {
                 &limits::SELF_DISCHARGE_PER_H,
                 "self_discharge_per_h",
             )?;
+            Self::energy(kind)?;
         }
         Ok(())
     }

@@ -22,6 +22,7 @@ enum Stream {
     Outages = 6,
     Market = 7,
     Displaced = 8,
+    StartCharges = 9,
 }
 
 impl Stream {
@@ -54,6 +55,7 @@ impl Network {
         for (aircraft, at) in day.aircraft.iter_mut().zip(positions) {
             aircraft.at = at;
         }
+        self.draw_start_charges(&mut day, seed);
         self.draw_disturbances(&mut day, seed);
         // Demand and forecast meet the same numbers, so that they respond alike.
         for demand in day.disturbances.forecast.iter_mut().chain([&mut day.demand]) {
@@ -68,6 +70,19 @@ impl Network {
     /// changed since the day was drawn, even if it still has the same name.
     pub fn draws(&self, day: &Scenario) -> bool {
         self.draw(DaySeed::of(day)) == *day
+    }
+
+    /// Draws what is in each battery when operations start, to the watt-hour, where the network has
+    /// a range for it.
+    fn draw_start_charges(&self, day: &mut Day, seed: DaySeed) {
+        let Some((low, high)) = self.start_charge else { return };
+        let mut random = Stream::StartCharges.of(seed);
+        for aircraft in &mut day.aircraft {
+            let battery_kwh = day.aircraft_types[aircraft.kind.at()].battery_kwh;
+            let share = low + (high - low) * random.random::<f64>();
+            let charge_kwh = ((1e3 * share * battery_kwh).round() / 1e3).min(battery_kwh);
+            aircraft.start_charge_kwh = Some(charge_kwh);
+        }
     }
 
     /// Draws Q(i, j, t), pair by pair.

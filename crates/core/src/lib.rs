@@ -22,6 +22,8 @@
 //! ```
 
 mod change;
+mod charge_rate;
+mod charging;
 mod check;
 mod code;
 mod demand_model;
@@ -52,6 +54,8 @@ mod warning;
 mod world;
 
 pub use change::{Difference, split_path};
+pub use charge_rate::{ChargeRate, whole_mwh};
+pub use charging::{ChargeCurve, Charging, CurvePoint};
 pub use code::{Code, Coded, Exit};
 pub use disturbances::{
     ClosedSpan, ClosedTimes, Closure, Disturbances, Outage, Route, TakeoffDelays,

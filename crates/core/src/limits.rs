@@ -104,6 +104,7 @@ pub(crate) mod entries {
     pub(crate) const CORRIDORS: usize = 65_536;
     pub(crate) const CLOSURES: usize = 10_000;
     pub(crate) const OUTAGES: usize = 10_000;
+    pub(crate) const CURVE_POINTS: usize = 32;
     /// Cells of all demand tables together, bounded so that many copies of a day fit in memory and
     /// one fits in the longest file.
     pub(crate) const DEMAND: usize = 4_000_000;
@@ -145,6 +146,12 @@ pub(crate) const SPEED_MPH: Limits = Limits::between(10.0, 1_000.0);
 pub(crate) const BATTERY_KWH: Limits = Limits::above_zero(5_000.0);
 pub(crate) const ENERGY_KWH_PER_MI: Limits = Limits::above_zero(1e3);
 pub(crate) const CHARGE_KW: Limits = Limits::between(1.0, 1e5);
+/// `check/energy.rs` further bounds it by the battery.
+pub(crate) const RESERVE_KWH: Limits = Limits::between(0.0, 5_000.0);
+/// `check/energy.rs` further bounds it by the battery.
+pub(crate) const CHARGE_KWH: Limits = Limits::between(0.0, 5_000.0);
+pub(crate) const SHARE: Limits =
+    Limits::between(0.0, 1.0).hint("a charge is a share of the battery, 0.8 is 80 %");
 pub(crate) const SELF_DISCHARGE_PER_H: Limits = Limits::between(0.0, 1.0)
     .hint("self-discharge is a share of the battery's capacity, 0.01 is 1 %");
 
@@ -194,9 +201,10 @@ pub(crate) const PASSENGERS: Limits = Limits::whole(0, 1_000_000);
 #[cfg(test)]
 mod tests {
     use super::{
-        BATTERY_KWH, CHARGE_KW, CHARGERS, DISTANCE_MI, ENERGY_KWH_PER_MI, ENERGY_PRICE_USD, HOLD_S,
-        LATITUDE, LONGITUDE, Limits, MONEY_USD, PASSENGER_WAIT_S, PASSENGERS, PHASE_S, SEATS,
-        SELF_DISCHARGE_PER_H, SLOT_S, SPEED_MPH, STANDS, entries,
+        BATTERY_KWH, CHARGE_KW, CHARGE_KWH, CHARGERS, DISTANCE_MI, ENERGY_KWH_PER_MI,
+        ENERGY_PRICE_USD, HOLD_S, LATITUDE, LONGITUDE, Limits, MONEY_USD, PASSENGER_WAIT_S,
+        PASSENGERS, PHASE_S, RESERVE_KWH, SEATS, SELF_DISCHARGE_PER_H, SLOT_S, SPEED_MPH, STANDS,
+        entries,
     };
 
     /// A number as it is written in the book: `1,000,000`.
@@ -242,6 +250,10 @@ mod tests {
             ("`aircraft_types` `energy_kwh_per_mi`", ENERGY_KWH_PER_MI),
             ("`aircraft_types` `charge_kw`", CHARGE_KW),
             ("`aircraft_types` `self_discharge_per_h`", SELF_DISCHARGE_PER_H),
+            ("`aircraft_types` `reserve_kwh`", RESERVE_KWH),
+            ("`aircraft_types` `turnaround_s`", PHASE_S),
+            ("`aircraft` `start_charge_kwh`", CHARGE_KWH),
+            ("`vertiports` `charger_kw`", CHARGE_KW),
             ("`distance_mi`", DISTANCE_MI),
             ("`fare`", MONEY_USD),
             ("`passenger_cost`", MONEY_USD),

@@ -19,8 +19,10 @@ const RANDOM_PLACES: &str = "random-places:";
 /// The networks that are compiled into the program, by name.
 const SHIPPED: &[(&str, &str)] = &[
     ("paper", include_str!("../../../networks/paper.toml")),
+    ("paper-quick", include_str!("../../../networks/paper-quick.toml")),
     ("disrupted", include_str!("../../../networks/disrupted.toml")),
     ("new-york", include_str!("../../../networks/new-york.toml")),
+    ("new-york-quick", include_str!("../../../networks/new-york-quick.toml")),
     ("large", include_str!("../../../networks/large.toml")),
     ("as-coded", include_str!("../../../networks/as-coded.toml")),
     ("san-francisco", include_str!("../../../networks/san-francisco.toml")),
@@ -43,6 +45,9 @@ pub struct Network {
     pub(crate) idle_day: Scenario,
     /// The stands that start positions are drawn for, where they are not those of the vertiports.
     pub(crate) start_stands: Option<Vec<u16>>,
+    /// The lowest and the highest share of its battery that an aircraft starts with, if batteries
+    /// are not full.
+    pub(crate) start_charge: Option<(f64, f64)>,
     pub(crate) demand: DemandModel,
     pub(crate) disturbances: DisturbanceModel,
     pub(crate) feature_scales: FeatureScales,

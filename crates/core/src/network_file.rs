@@ -44,6 +44,7 @@ struct RawNetwork {
     #[serde(rename = "start_positions")]
     _start_positions: StartPositions,
     start_stands: Option<Vec<f64>>,
+    start_charge: Option<[f64; 2]>,
     time_zone: Option<String>,
     operations: RawOperations,
     vertiports: Vec<RawSite>,
@@ -124,6 +125,7 @@ impl RawNetwork {
         let aircraft = fleet(&raw.fleet, &aircraft_types, &vertiports)?;
         let start_stands =
             raw.start_stands.map(|raw| start_stands(raw, vertiports.len())).transpose()?;
+        let start_charge = raw.start_charge.map(start_charge).transpose()?;
         let places = Positions::of_vertiports(&vertiports)?;
         let models = DemandModels {
             equation_1: raw.demand,
@@ -173,6 +175,7 @@ impl RawNetwork {
             name: raw.name,
             time_zone: raw.time_zone,
             start_stands,
+            start_charge,
             toml: text.to_owned(),
             files: Vec::new(),
             idle_day: idle_day.checked()?,
@@ -240,6 +243,21 @@ fn start_stands(raw: Vec<f64>, vertiports: usize) -> Result<Vec<u16>, FormatErro
     each(raw, |stands, at| limits::STANDS.whole_number(stands, || format!("start_stands[{at}]")))
 }
 
+/// Checks the range of shares of the battery that start charges are drawn from.
+fn start_charge([low, high]: [f64; 2]) -> Result<(f64, f64), FormatError> {
+    limits::SHARE.check(low, || "start_charge[0]".to_owned())?;
+    limits::SHARE.check(high, || "start_charge[1]".to_owned())?;
+    if low > high {
+        return Err(FormatError::OutOfRange {
+            member: "start_charge[1]".to_owned(),
+            rule: format!("at least start_charge[0], {}", limits::number(low)),
+            found: limits::number(high),
+            hint: Some("start_charge is the lowest and the highest share of the battery"),
+        });
+    }
+    Ok((low, high))
+}
+
 /// Checks the name of a network, which becomes part of names of days and files.
 fn name(name: &str) -> Result<(), FormatError> {
     const RULE: &str =
@@ -295,6 +313,11 @@ fn fleet(
     let digits = kinds.len().to_string().len().max(2);
     let aircraft = kinds.into_iter().zip(stands).zip(1..);
     Ok(aircraft
-        .map(|((kind, at), number)| Aircraft { id: format!("A{number:0digits$}"), kind, at })
+        .map(|((kind, at), number)| Aircraft {
+            id: format!("A{number:0digits$}"),
+            kind,
+            at,
+            start_charge_kwh: None,
+        })
         .collect())
 }

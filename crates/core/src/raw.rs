@@ -12,7 +12,10 @@ use serde::Deserialize;
 
 use crate::limits::{self, Limits};
 use crate::parse::shortened;
-use crate::{Aircraft, AircraftType, Degrees, FormatError, Operations, Time, Vertiport, check};
+use crate::{
+    Aircraft, AircraftType, ChargeCurve, Charging, CurvePoint, Degrees, FormatError, Operations,
+    Time, Vertiport, check,
+};
 
 pub(crate) use disturbances::{RawClosure, RawOutage, RawRoute, RawTakeoffDelays};
 
@@ -26,6 +29,7 @@ pub(crate) struct RawOperations {
     hold_s: f64,
     #[serde(default)]
     passenger_wait_s: f64,
+    charging: Option<String>,
 }
 
 impl RawOperations {
@@ -44,8 +48,19 @@ impl RawOperations {
                 &limits::PASSENGER_WAIT_S,
                 "passenger_wait_s",
             )?,
+            charging: self.charging.as_deref().map_or(Ok(Charging::default()), charging)?,
         })
     }
+}
+
+/// The rule of charging that a file names.
+fn charging(name: &str) -> Result<Charging, FormatError> {
+    let named = Charging::NAMES.iter().find(|(known, _)| *known == name);
+    named.map(|&(_, charging)| charging).ok_or_else(|| FormatError::BadId {
+        member: "operations: charging".to_owned(),
+        rule: "\"to_full\" or \"as_needed\"",
+        found: shortened(name, 64),
+    })
 }
 
 #[derive(Deserialize)]
@@ -56,6 +71,7 @@ pub(crate) struct RawVertiport {
     y_mi: f64,
     stands: f64,
     chargers: Option<f64>,
+    charger_kw: Option<f64>,
     busy: bool,
     latitude: Option<f64>,
     longitude: Option<f64>,
@@ -88,6 +104,7 @@ impl RawVertiport {
             y_mi: self.y_mi,
             stands,
             chargers,
+            charger_kw: self.charger_kw,
             busy: self.busy,
             degrees,
             stand_cost_usd: self.stand_cost,
@@ -112,6 +129,11 @@ pub(crate) struct RawAircraftType {
     energy_kwh_per_mi: f64,
     charge_kw: f64,
     self_discharge_per_h: f64,
+    #[serde(default)]
+    reserve_kwh: f64,
+    #[serde(default)]
+    turnaround_s: f64,
+    charge_curve: Option<Vec<[f64; 2]>>,
 }
 
 impl RawAircraftType {
@@ -119,6 +141,11 @@ impl RawAircraftType {
         check::id(|| format!("aircraft_types[{at}]: id"), &self.id)?;
         let member = || format!("aircraft type {:?}: seats", self.id);
         let seats = limits::SEATS.whole_number(self.seats, member)?;
+        let member = || format!("aircraft type {:?}: turnaround_s", self.id);
+        let turnaround_s = limits::PHASE_S.whole_number(self.turnaround_s, member)?;
+        let point = |[charge, kw]: [f64; 2]| CurvePoint { charge, kw };
+        let through =
+            |points: Vec<_>| ChargeCurve::through(points.into_iter().map(point).collect());
         Ok(AircraftType {
             id: self.id,
             seats,
@@ -127,6 +154,9 @@ impl RawAircraftType {
             energy_kwh_per_mi: self.energy_kwh_per_mi,
             charge_kw: self.charge_kw,
             self_discharge_per_h: self.self_discharge_per_h,
+            reserve_kwh: self.reserve_kwh,
+            turnaround_s,
+            charge_curve: self.charge_curve.map(through),
         })
     }
 }

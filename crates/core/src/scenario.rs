@@ -6,7 +6,7 @@
 
 use std::ops::Deref;
 
-use crate::{Disturbances, Fares, Matrix, Route, Time, TypeIx, VertiportIx};
+use crate::{ChargeCurve, Charging, Disturbances, Fares, Matrix, Route, Time, TypeIx, VertiportIx};
 
 /// When decisions are taken, and how long each part of a flight takes apart from cruise and
 /// charging.
@@ -25,6 +25,8 @@ pub struct Operations {
     /// Seconds for which passengers who were not carried wait into the next demand period; 0 in the
     /// paper.
     pub passenger_wait_s: u32,
+    /// When an aircraft that has landed may decide again.
+    pub charging: Charging,
 }
 
 /// A place where aircraft land, charge and stand.
@@ -42,6 +44,8 @@ pub struct Vertiport {
     /// Number of chargers, where they are counted apart from stands. A flight here needs a charger
     /// from take-off on; the aircraft frees it when it leaves, or when it holds and finds a stand.
     pub chargers: Option<u16>,
+    /// The most power that a charger here delivers, kW; `None` if only the aircraft limits it.
+    pub charger_kw: Option<f64>,
     /// Whether the vertiport belongs to V_B, the vertiports with high demand (Eq. 1).
     pub busy: bool,
     /// Position on the globe, if it is known, for maps and warnings. The day contains the
@@ -89,27 +93,35 @@ pub struct AircraftType {
     /// γ: share of the battery's capacity lost in an hour of flight, besides the energy that flying
     /// takes. On a stand the charger makes up for it.
     pub self_discharge_per_h: f64,
+    /// Energy that a flight leaves in the battery, kWh; 0 in the paper.
+    pub reserve_kwh: f64,
+    /// Seconds after a landing before which the aircraft is not ready; 0 in the paper.
+    pub turnaround_s: u32,
+    /// Charging power by charge, which `charge_kw` limits; `None` for `charge_kw` throughout.
+    pub charge_curve: Option<ChargeCurve>,
 }
 
 impl AircraftType {
-    /// Whether a full battery lasts for a flight of this energy (Eq. 12). Both energies are rounded
-    /// to whole milliwatt-hours, so that a pair exactly at the end of the range can be flown
-    /// whichever way a product rounds.
+    /// Whether a full battery lasts for a flight of this energy and the reserve (Eq. 12). All are
+    /// rounded to whole milliwatt-hours, so that a pair exactly at the end of the range can be
+    /// flown whichever way a product rounds.
     pub fn lasts_for(&self, energy_kwh: f64) -> bool {
         let whole_mwh = |kwh: f64| (1e6 * kwh).round();
-        whole_mwh(energy_kwh) <= whole_mwh(self.battery_kwh)
+        whole_mwh(energy_kwh) + whole_mwh(self.reserve_kwh) <= whole_mwh(self.battery_kwh)
     }
 }
 
 /// One aircraft of the fleet.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Aircraft {
     /// Unique name.
     pub id: String,
     /// Its type.
     pub kind: TypeIx,
-    /// The vertiport where it stands, fully charged, when operations start.
+    /// The vertiport where it stands when operations start.
     pub at: VertiportIx,
+    /// Its charge when operations start, kWh; `None` if its battery is full.
+    pub start_charge_kwh: Option<f64>,
 }
 
 /// One operating day in its open form, with the members of the scenario file; see [`Scenario`] for

@@ -94,6 +94,7 @@ struct RawAircraft {
     #[serde(rename = "type")]
     kind: String,
     at: String,
+    start_charge_kwh: Option<f64>,
 }
 
 impl RawScenario {
@@ -172,7 +173,7 @@ impl RawAircraft {
         let member = |member: &str| format!("aircraft {:?}: {member}", self.id);
         let kind = TypeIx::new(kinds.position(&self.kind, || member("type"))?);
         let at = VertiportIx::new(places.position(&self.at, || member("at"))?);
-        Ok(Aircraft { id: self.id, kind, at })
+        Ok(Aircraft { id: self.id, kind, at, start_charge_kwh: self.start_charge_kwh })
     }
 }
 

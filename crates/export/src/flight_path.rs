@@ -29,7 +29,7 @@ pub(crate) fn flight_path(
     let (start, end) = cruise(flight, operations);
     // Two points never have the same time, unless the whole flight takes none.
     let pieces = pieces(&way).min(end.since(start)).max(1);
-    let (departure, arrival) = (flight.row.time, flight.row.arrival);
+    let (departure, arrival) = (flight.row.takeoff, flight.row.arrival);
     let boarding = (start > departure).then(|| Waypoint { place: way.at(0.0), time: departure });
     let cruise = (0..=pieces).map(|piece| {
         let elapsed = u64::from(end.since(start)) * u64::from(piece) / u64::from(pieces);
@@ -60,7 +60,7 @@ fn pieces(way: &GreatCircle) -> u32 {
 /// takes (Eq. 7); the time before it is take-off and delay. A flight of a live day may be shorter
 /// than that; it cruises all the time then.
 fn cruise(flight: &Taken<'_>, operations: &Operations) -> (Time, Time) {
-    let (departure, arrival) = (flight.row.time, flight.row.arrival);
+    let (departure, arrival) = (flight.row.takeoff, flight.row.arrival);
     let cruise_s = cruise_s(flight);
     let before_cruise_s = arrival
         .since(departure)

@@ -48,7 +48,7 @@ fn line(flight: &Taken<'_>, places: &[Degrees], flown: &Flown<'_>, calendar: &Ca
         [
             ("aircraft", flight.aircraft.id.as_str().into()),
             ("arrival", time(flight.row.arrival).into()),
-            ("departure", time(flight.row.time).into()),
+            ("departure", time(flight.row.takeoff).into()),
             ("from", flight.from.id.as_str().into()),
             ("passengers", flight.row.passengers.into()),
             ("profit_usd", flight.row.profit_usd().into()),

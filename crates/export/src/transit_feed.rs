@@ -159,7 +159,7 @@ impl Feed<'_> {
             let closed = "1";
             let open = if flight.is_reposition() { closed } else { "0" };
             let (departure, arrival) =
-                (flight.row.time.to_string(), flight.row.arrival.to_string());
+                (flight.row.takeoff.to_string(), flight.row.arrival.to_string());
             let from = &self.stops[flight.row.from.at()];
             let to = &self.stops[flight.row.to.at()];
             table.row([&trip, &departure, &departure, from, "1", open, closed, "1"]);

@@ -119,7 +119,7 @@ impl Writer<'_> {
     /// takes.
     fn span(&self, flight: &Taken<'_>, end: End) -> (Time, Time) {
         let operations = &self.flown.day().operations;
-        let (departure, arrival) = (flight.row.time, flight.row.arrival);
+        let (departure, arrival) = (flight.row.takeoff, flight.row.arrival);
         let flight_s = arrival.since(departure);
         match end {
             End::Departure => (departure, departure + operations.takeoff_s.min(flight_s)),
@@ -179,7 +179,7 @@ fn description(flight: &Taken<'_>) -> String {
         flight.kind.id,
         flight.from.id,
         flight.to.id,
-        flight.row.time,
+        flight.row.takeoff,
         flight.row.arrival,
         flight.row.passengers,
         flight.kind.seats,

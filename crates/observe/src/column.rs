@@ -55,11 +55,9 @@ pub(crate) fn look_around<M>(
     mut fresh: impl FnMut(VertiportIx, Time) -> M,
     mut each: impl FnMut(&mut [Around<M>], Decision),
 ) {
-    let legs = view.legs_from(view.kind(decision.aircraft), decision.at);
     around.clear();
-    around.extend(VertiportIx::all(legs.len()).zip(legs).map(|(to, leg)| {
-        let block_s = if to == decision.at { view.hold_s() } else { leg.block_s() };
-        let ready = decision.time + block_s;
+    around.extend(VertiportIx::all(view.vertiports()).map(|to| {
+        let ready = view.outcome(decision, to).ready;
         Around { ready, before: 0, near: 0, more: fresh(to, ready) }
     }));
     for (aircraft, &at) in AircraftIx::all(view.places().len()).zip(view.places()) {
@@ -135,7 +133,9 @@ impl<M> Node<M> {
             (0.0, 0)
         } else {
             let waiting = view.demand_left(view.period(), from, to);
-            (view.flight_profit_usd(time, kind, (from, to), waiting) / unit_usd, waiting)
+            let takeoff = view.outcome(decision, to).takeoff;
+            let departures = view.departures(time, kind, from);
+            (departures.profit_from_usd(takeoff, to, waiting) / unit_usd, waiting)
         };
         let next_period = (view.period() + 1).min(view.period_starts().len() - 1);
         Self {

@@ -73,7 +73,7 @@ impl Scales {
         price[0] = (view.energy_price_usd() * self.energy_price_usd) as f32;
         place.fill(0.0);
         place[decision.at.at()] = 1.0;
-        battery[0] = (view.aircraft_type(kind).battery_kwh * self.battery_kwh) as f32;
+        battery[0] = (view.charge_kwh(decision.aircraft) * self.battery_kwh) as f32;
         for (power, leg) in powers.iter_mut().zip(view.legs_from(kind, decision.at)) {
             *power = (leg.mean_power_kw * self.power_kw) as f32;
         }

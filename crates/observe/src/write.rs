@@ -47,7 +47,7 @@ impl Writer<'_> {
             Part::ChoicePassengers => self.choices(to, factor, |flight| f64::from(self.boarding(flight.to))),
             Part::ChoiceFlightTime => self.choices(to, factor, |flight| hours(flight.leg.flight_s)),
             Part::ChoiceBlockTime => {
-                self.choices(to, factor, |flight| hours(flight.leg.block_s()));
+                self.choices(to, factor, |flight| self.block_h(flight));
                 to[self.scene.decision.at.at()] = (hours(view.hold_s()) * factor) as f32;
             }
             Part::DemandLeft => pairs().counts(to, view.demand_left_in(view.period())),
@@ -147,10 +147,18 @@ impl Writer<'_> {
         view.demand_left(view.period(), decision.at, to).min(seats)
     }
 
+    /// Hours from the decision until the aircraft is ready again.
+    fn block_h(&self, Flight { to, .. }: Flight<'_>) -> f64 {
+        let Scene { view, decision, .. } = *self.scene;
+        hours(view.outcome(decision, to).ready.since(decision.time))
+    }
+
     fn profit_usd(&self, Flight { to, .. }: Flight<'_>) -> f64 {
         let Scene { view, decision, .. } = *self.scene;
         let waiting = view.demand_left(view.period(), decision.at, to);
-        view.flight_profit_usd(decision.time, self.scene.kind(), (decision.at, to), waiting)
+        let takeoff = view.outcome(decision, to).takeoff;
+        let departures = view.departures(decision.time, self.scene.kind(), decision.at);
+        departures.profit_from_usd(takeoff, to, waiting)
     }
 
     fn legs(&self, pairs: &Pairs, to: &mut [f32], number: impl Fn(&Leg) -> f64) {

@@ -43,6 +43,16 @@ pub enum Error {
         most_places: usize,
     },
 
+    /// V505 levels out of range. The levels of charge of a bound are not a whole number from 4 to
+    /// 16.
+    ///
+    /// Fix: give a whole number from 4 to 16; 4 is usual.
+    #[error("the levels of charge must be a whole number from 4 to 16, found {found}")]
+    Levels {
+        /// The number of levels.
+        found: u16,
+    },
+
     /// V504 days of another network. `bound --without-foresight NETWORK` was given a day whose
     /// take-off delays that network never draws, or a network without delays for a day that has
     /// some. Only the probabilities of delays are known beforehand, and only the network has them.
@@ -64,6 +74,7 @@ impl Coded for Error {
             Self::Step { .. } => 501,
             Self::TooManyFlights { .. } => 502,
             Self::OtherNetwork { .. } => 504,
+            Self::Levels { .. } => 505,
         })
     }
 
@@ -72,16 +83,17 @@ impl Coded for Error {
             Self::Core(error) => error.hint(),
             Self::TooManyFlights { .. } => Some("a longer step gives fewer possible flights"),
             Self::OtherNetwork { .. } => Some("name the network that the day was drawn from"),
-            Self::Step { .. } => None,
+            Self::Step { .. } | Self::Levels { .. } => None,
         }
     }
 
     fn exit(&self) -> Exit {
         match self {
             Self::Core(error) => error.exit(),
-            Self::Step { .. } | Self::TooManyFlights { .. } | Self::OtherNetwork { .. } => {
-                Exit::Input
-            }
+            Self::Step { .. }
+            | Self::TooManyFlights { .. }
+            | Self::OtherNetwork { .. }
+            | Self::Levels { .. } => Exit::Input,
         }
     }
 }

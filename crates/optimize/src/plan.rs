@@ -6,6 +6,7 @@
 //! one aircraft while the others keep their flights (`plan/itinerary_search.rs`). The plan that is
 //! returned has been played in the simulator.
 
+mod batteries;
 mod chargers;
 mod day;
 mod dive;

@@ -31,7 +31,7 @@ impl<'a> Charged<'a> {
             return row.ready;
         }
         let kind = self.day.aircraft[row.aircraft.at()].kind;
-        let charged = row.arrival + legs.leg(kind, row.from, row.to).charge_s;
+        let charged = row.arrival + legs.leg(kind, row.from, row.to).ground_s;
         charged.min(row.ready)
     }
 }

@@ -54,10 +54,14 @@ impl Spans {
             0 => &mut self.empty,
             step => &mut self.loaded[step.min(LOADS) - 1],
         };
-        let (start, arrival) = (clock.pixel(row.time), clock.pixel(row.arrival));
+        let (start, arrival) = (clock.pixel(row.takeoff), clock.pixel(row.arrival));
         flight.add((start, y), ((arrival - start).max(0.5), height));
         let (charged, ready) = (clock.pixel(charged), clock.pixel(row.ready));
         let (y, height) = (y + 0.3 * height, 0.4 * height);
+        if row.takeoff > row.time {
+            let decided = clock.pixel(row.time);
+            self.charging.add((decided, y), (start - decided, height));
+        }
         self.charging.add((arrival, y), ((charged - arrival).max(0.0), height));
         if ready > charged {
             self.out_of_service.add((charged, y), (ready - charged, height));

@@ -88,6 +88,9 @@ fn whereabouts(day: &Scenario, row: &TraceRow, time: Time) -> Whereabouts {
     if row.to == row.from {
         return Whereabouts::Standing { at: row.from, charging: false };
     }
+    if time < row.takeoff {
+        return Whereabouts::Standing { at: row.from, charging: true };
+    }
     if time >= row.arrival {
         return Whereabouts::Standing { at: row.to, charging: time < row.ready };
     }
@@ -95,7 +98,7 @@ fn whereabouts(day: &Scenario, row: &TraceRow, time: Time) -> Whereabouts {
     Whereabouts::Flying {
         from: row.from,
         to: row.to,
-        share: f64::from(time.since(row.time)) / f64::from(row.arrival.since(row.time)),
+        share: f64::from(time.since(row.takeoff)) / f64::from(row.arrival.since(row.takeoff)),
         load: f64::from(row.passengers) / f64::from(seats),
     }
 }

@@ -1,7 +1,7 @@
 //! `greedy`: takes the flight with the highest profit per hour from take-off to ready.
 
 use vertifleet_core::VertiportIx;
-use vertifleet_sim::{Decision, View};
+use vertifleet_sim::{Decision, Outcome, View};
 
 use crate::{Policy, PolicyError};
 
@@ -33,6 +33,11 @@ impl Greedy {
         let departures = view.departures(decision.time, kind, decision.at);
         let waiting = &view.demand_left_in(view.period())[decision.at.at() * view.vertiports()..];
         view.feasible(decision).iter().filter(|&to| to != decision.at).map(move |to| {
+            if view.charges_as_needed() {
+                let Outcome { takeoff, ready, .. } = view.outcome(decision, to);
+                let profit_usd = departures.profit_from_usd(takeoff, to, waiting[to.at()]);
+                return (to, profit_usd / f64::from(ready.since(decision.time)));
+            }
             let profit_usd = departures.profit_usd(to, waiting[to.at()]);
             (to, profit_usd / f64::from(departures.block_s(to)))
         })

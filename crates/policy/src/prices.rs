@@ -11,11 +11,13 @@
 
 mod backward_pass;
 mod base_rule;
+mod charged_flights;
 mod choices;
 mod clock;
 mod fleet;
 mod hops;
 mod intervals;
+mod levels;
 mod quads;
 mod ranks;
 mod relaxation;
@@ -27,7 +29,7 @@ mod wanted;
 
 use std::sync::OnceLock;
 
-use vertifleet_core::{Time, TypeIx, VertiportIx};
+use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, Imagined, View};
 
 use base_rule::BaseRule;
@@ -172,11 +174,24 @@ impl DayPrices {
         self.base_rule_made_at = now;
     }
 
-    /// Dollars that an aircraft of a type that is ready at a vertiport at a time may still earn,
-    /// less its payments for stands and passengers; 0 past the end of operations. `time` must not
-    /// be before the view's time.
+    /// Dollars that an aircraft of a type that is ready at a vertiport at a time with a full
+    /// battery may still earn, less its payments for stands and passengers; 0 past the end of
+    /// operations. `time` must not be before the view's time.
     pub fn worth_usd(&self, kind: TypeIx, vertiport: VertiportIx, time: Time) -> f64 {
         self.relaxation.kept_values().worth_usd(kind, vertiport, time.seconds())
+    }
+
+    /// What the aircraft that is ready next at a vertiport may still earn, as
+    /// [`worth_usd`](Self::worth_usd), with what its battery holds then; dollars.
+    pub fn aircraft_worth_usd(&self, view: View<'_>, aircraft: AircraftIx) -> f64 {
+        let (kind, at) = (view.kind(aircraft), view.places()[aircraft.at()]);
+        let ready = view.ready_at(aircraft);
+        if !view.charges_as_needed() {
+            return self.worth_usd(kind, at, ready);
+        }
+        let ready = self.relaxation.nearest(view, (kind, at), ready, view.charge_mwh(aircraft));
+        let ready = ready.no_sooner_than(self.made_at.seconds());
+        self.relaxation.kept_values().worth_at_level_usd(kind, at, ready)
     }
 
     /// Price of a stand from one time to another, dollars.
@@ -214,7 +229,7 @@ impl DayPrices {
     pub fn choices<'a>(&'a self, view: View<'a>, decision: &Decision) -> Choices<'a> {
         let kind = view.kind(decision.aircraft);
         let worths = self.relaxation.kept_values().worths_from(kind, decision.time.seconds());
-        Choices::of(view, decision, worths)
+        Choices::of(view, decision, worths, self.relaxation.charging())
     }
 
     /// The choice of the base rule: the feasible choice that is worth most, and of equals the
@@ -228,6 +243,10 @@ impl DayPrices {
     /// Makes [`best_with`](Self::best_with) fast for decisions up to `ahead_s` after each decision
     /// until the prices are recomputed. `view` is of the day of the prices.
     pub(crate) fn rank(&self, view: View<'_>, ahead_s: u32) {
+        // The bounds of ranks hold for full batteries.
+        if view.charges_as_needed() {
+            return;
+        }
         self.ranks.get_or_init(|| {
             let until = self.made_at + RENEWAL_S + ahead_s;
             self.relaxation.ranks(view, (self.made_at, until))

@@ -372,7 +372,7 @@ impl Noise {
 pub fn fleet_worth_usd(prices: &DayPrices, view: View<'_>, now: Time) -> f64 {
     let worth_usd = |aircraft: AircraftIx| {
         let (place, ready) = (view.places()[aircraft.at()], view.ready_at(aircraft));
-        prices.worth_usd(view.kind(aircraft), place, ready) - prices.rent_usd(place, now, ready)
+        prices.aircraft_worth_usd(view, aircraft) - prices.rent_usd(place, now, ready)
     };
     AircraftIx::all(view.places().len()).map(worth_usd).sum()
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 use utoipa::ToSchema;
 use vertifleet_core::{Scenario, Time, VertiportIx};
 use vertifleet_policy::{DayPrices, Policy};
-use vertifleet_sim::{Decision, Refusal, Simulation, View};
+use vertifleet_sim::{Decision, Outcome, Refusal, Simulation, View};
 
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
@@ -64,6 +64,13 @@ pub(crate) struct Alternative {
     pub(crate) flight_profit_usd: f64,
     /// Passengers on board.
     pub(crate) passengers: u32,
+    /// When it would take off, on days that charge as needed; absent on others, and for a hold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) takeoff: Option<Moment>,
+    /// What the battery needs for it to take off: the energy of the flight and the reserve, kWh; on
+    /// days that charge as needed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) needs_kwh: Option<f64>,
     /// When it would land.
     pub(crate) arrival: Moment,
     /// When it would be ready again.
@@ -101,6 +108,8 @@ pub(crate) enum RuleName {
     Closed,
     /// Every stand there is taken or promised.
     NoStandFree,
+    /// The charge suffices only after the end of operations.
+    ChargedTooLate,
 }
 
 /// A policy that decides on a day; its evaluations are serialised.
@@ -235,17 +244,16 @@ impl Weighed<'_> {
         let Decision { time, aircraft, at, .. } = **decision;
         let (kind, period) = (view.kind(aircraft), view.period());
         let stays = to == at;
-        let leg = view.leg(kind, at, to);
-        let (flight_s, block_s) =
-            if stays { (0, view.hold_s()) } else { (leg.flight_s, leg.block_s()) };
+        let departures = view.departures(time, kind, at);
+        let waits = view.charges_as_needed() && !stays;
+        let Outcome { takeoff, arrival, ready, .. } = view.outcome(decision, to);
         let (passengers, flight_profit_usd) = if stays {
             (0, 0.0)
         } else {
             let waiting = view.demand_left(period, at, to);
             let seats = u32::from(view.aircraft_type(kind).seats);
-            (waiting.min(seats), view.flight_profit_usd(time, kind, (at, to), waiting))
+            (waiting.min(seats), departures.profit_from_usd(takeoff, to, waiting))
         };
-        let ready = time + block_s;
         let open = prices.filter(|_| impossible.is_none());
         let passenger_usd = |prices: &DayPrices| prices.passenger_usd(period, at, to);
         Alternative {
@@ -254,7 +262,9 @@ impl Weighed<'_> {
             worth_usd: open.map(|prices| to_cents(prices.choice_usd(*view, decision, to))),
             flight_profit_usd: to_cents(flight_profit_usd),
             passengers,
-            arrival: (time + flight_s).into(),
+            takeoff: waits.then(|| takeoff.into()),
+            needs_kwh: waits.then(|| needs_kwh(*view, decision, to)),
+            arrival: arrival.into(),
             ready: ready.into(),
             stands: view.stands(to),
             stands_taken: view.stands_taken()[to.at()],
@@ -265,6 +275,12 @@ impl Weighed<'_> {
             impossible,
         }
     }
+}
+
+/// What a battery needs before a flight takes off, kWh.
+fn needs_kwh(view: View<'_>, decision: &Decision, to: VertiportIx) -> f64 {
+    let kind = view.kind(decision.aircraft);
+    view.leg(kind, decision.at, to).energy_kwh + view.aircraft_type(kind).reserve_kwh
 }
 
 /// An amount rounded to cents: the precision that people need, and much shorter than a float.
@@ -282,6 +298,7 @@ fn refusals(view: View<'_>, decision: &Decision) -> Vec<Option<Impossible>> {
             Refusal::NoCorridor { .. } => RuleName::NoCorridor,
             Refusal::Closed { .. } => RuleName::Closed,
             Refusal::NoStandFree { .. } => RuleName::NoStandFree,
+            Refusal::ChargedTooLate { .. } => RuleName::ChargedTooLate,
             Refusal::DayOver | Refusal::NoSuchVertiport { .. } => return None,
         };
         let kind = view.kind(decision.aircraft);
@@ -294,7 +311,7 @@ fn refusals(view: View<'_>, decision: &Decision) -> Vec<Option<Impossible>> {
             RuleName::NoStandFree => {
                 format!(" ({} of {})", view.stands_taken()[to.at()], view.stands(to))
             }
-            RuleName::NoCorridor | RuleName::Closed => String::new(),
+            RuleName::NoCorridor | RuleName::Closed | RuleName::ChargedTooLate => String::new(),
         };
         Some(Impossible { rule, reason: format!("{refusal}{numbers}") })
     };

@@ -155,6 +155,10 @@ pub(crate) enum EventKind {
         /// The vertiport, if it is not the planned destination.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         at: Option<String>,
+        /// The charge of the battery, kWh, if it is not what was expected. Only on days that charge
+        /// as needed.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        charge_kwh: Option<f64>,
     },
     /// An aircraft on the ground is expected to be charged at a time.
     Charging {
@@ -304,9 +308,10 @@ impl EventKind {
                 to: ids.vertiport_if_any(to.as_ref())?,
                 passengers: *passengers,
             },
-            Self::Landed { aircraft, at, .. } => Report::Landed {
+            Self::Landed { aircraft, at, charge_kwh } => Report::Landed {
                 aircraft: ids.aircraft(aircraft)?,
                 at: ids.vertiport_if_any(at.as_ref())?,
+                charge_kwh: *charge_kwh,
             },
             Self::Charging { aircraft, ready, .. } => {
                 Report::Charging { aircraft: ids.aircraft(aircraft)?, ready: ready.time() }
@@ -395,8 +400,8 @@ impl EventKind {
             Report::Departed { aircraft: of, to, passengers } => {
                 Self::Departed { aircraft: aircraft(*of), to: to.map(id), passengers: *passengers }
             }
-            Report::Landed { aircraft: of, at } => {
-                Self::Landed { aircraft: aircraft(*of), at: at.map(id) }
+            Report::Landed { aircraft: of, at, charge_kwh } => {
+                Self::Landed { aircraft: aircraft(*of), at: at.map(id), charge_kwh: *charge_kwh }
             }
             Report::Charging { aircraft: of, ready } => {
                 Self::Charging { aircraft: aircraft(*of), ready: (*ready).into() }

@@ -296,7 +296,7 @@ impl WhatIf {
             });
             let unknown = || Error::unknown("aircraft type", kind.as_deref().unwrap_or_default());
             let kind = TypeIx::new(position.ok_or_else(unknown)?);
-            day.aircraft.push(Aircraft { id: id.clone(), kind, at });
+            day.aircraft.push(Aircraft { id: id.clone(), kind, at, start_charge_kwh: None });
         }
         Ok(day.check("what-if")?)
     }

@@ -9,6 +9,8 @@
 //! Each file checks one family of rules; [`Rule`] lists them all.
 
 mod amounts;
+mod battery;
+mod charger;
 mod decisions;
 mod event;
 mod expected;
@@ -17,6 +19,7 @@ mod order;
 mod passengers;
 mod reach;
 mod report;
+mod rounding;
 mod rule;
 mod stands;
 mod times;
@@ -24,7 +27,9 @@ mod times;
 use vertifleet_core::Scenario;
 
 use crate::Trace;
+use battery::Batteries;
 use expected::Expected;
+use stands::Stands;
 
 pub use report::{Finding, Report, Totals};
 pub use rule::Rule;
@@ -37,16 +42,25 @@ pub fn check(scenario: &Scenario, trace: &Trace) -> Report {
     let events = event::in_order(scenario, trace, &mut findings);
 
     decisions::check(scenario, &events, &mut findings);
-    stands::check(scenario, &events, &mut findings);
     passengers::check(scenario, &events, &mut findings);
     let mut totals = Totals::default();
+    let mut stands = Stands::at_start(scenario);
+    let mut batteries = Batteries::at_start(scenario);
     for event in &events {
+        let is_full = match &mut batteries {
+            None => true,
+            Some(batteries) => batteries.decides(event, &mut findings),
+        };
+        stands.decides(event, is_full, &mut findings);
         if event.is_hold() {
             holds::check(scenario, event, &mut findings);
             totals.count_hold();
         } else {
             reach::check(scenario, event, &mut findings);
-            let expected = Expected::of(scenario, event);
+            let expected = match &mut batteries {
+                None => Expected::of(scenario, event, event.row.time.seconds().into()),
+                Some(batteries) => batteries.take_off(event, &mut findings),
+            };
             times::check(scenario, event, &expected, &mut findings);
             amounts::check(event, &expected, &mut findings);
             totals.count_flight(event.row.passengers, &expected);

@@ -54,9 +54,15 @@ impl<'a> Departures<'a> {
     /// less passenger cost, less energy at the price of its arrival, less the flight cost.
     #[inline]
     pub fn profit_usd(&self, to: VertiportIx, waiting: u32) -> f64 {
+        self.profit_from_usd(self.time, to, waiting)
+    }
+
+    /// The profit of a flight that takes off at a time, which is not before the decision.
+    #[inline]
+    pub fn profit_from_usd(&self, takeoff: Time, to: VertiportIx, waiting: u32) -> f64 {
         let leg = &self.legs[to.at()];
         let margin_usd = self.fares_usd[to.at()] - self.passenger_costs_usd[to.at()];
-        let arrival = self.time + leg.flight_s;
+        let arrival = takeoff + leg.flight_s;
         let mut periods_on = 0;
         while self.starts.get(periods_on + 1).is_some_and(|&start| start <= arrival) {
             periods_on += 1;

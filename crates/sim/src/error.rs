@@ -41,6 +41,16 @@ pub enum Refusal {
         /// The vertiport that was chosen.
         to: String,
     },
+    /// The charge suffices for the flight only after the end of operations.
+    #[error(
+        "aircraft {aircraft:?} cannot fly to vertiport {to:?}: its battery has the energy of the flight and the reserve only after the end of operations"
+    )]
+    ChargedTooLate {
+        /// The aircraft that decides.
+        aircraft: String,
+        /// The vertiport that was chosen.
+        to: String,
+    },
     /// Every stand of the destination is taken or promised (Eq. 16), or every charger where
     /// chargers are counted apart.
     #[error(

@@ -1,7 +1,9 @@
 //! The time, energy and charging of a flight between two vertiports (Eq. 7, 9, 13-15), computed
 //! once a day.
 
-use vertifleet_core::{AircraftType, Operations, Scenario, TypeIx, VertiportIx};
+use vertifleet_core::{
+    AircraftType, ChargeRate, Charging, Operations, Scenario, TypeIx, Vertiport, VertiportIx,
+};
 
 use crate::VertiportSet;
 
@@ -14,20 +16,26 @@ pub struct Leg {
     /// g_ij: mean power drawn from the battery over the flight, kW (the interpretation under which
     /// Eq. 13 and 17 agree).
     pub mean_power_kw: f64,
-    /// Seconds from the decision to arrival: take-off, cruise, landing (Eq. 7).
+    /// Seconds from leaving the stand to arrival: take-off, cruise, landing (Eq. 7).
     pub flight_s: u32,
-    /// Seconds from arrival until the battery is full again (Eq. 14).
-    pub charge_s: u32,
+    /// Seconds from arrival until the aircraft is ready again: until its turnaround is over and,
+    /// where days charge to full, its battery is full (Eq. 14).
+    pub ground_s: u32,
 }
 
 impl Leg {
-    /// Seconds from the decision until the aircraft is ready for the next one (Eq. 9).
+    /// Seconds from take-off until the aircraft is ready for the next decision (Eq. 9).
     #[inline]
     pub fn block_s(&self) -> u32 {
-        self.flight_s + self.charge_s
+        self.flight_s + self.ground_s
     }
 
-    fn between(distance_mi: f64, kind: &AircraftType, operations: &Operations) -> Self {
+    fn between(
+        distance_mi: f64,
+        kind: &AircraftType,
+        to: &Vertiport,
+        operations: &Operations,
+    ) -> Self {
         let cruise_s = nearest_second(3600.0 * distance_mi / kind.speed_mph);
         let flight_s = operations.takeoff_s + cruise_s + operations.landing_s;
         let flight_h = f64::from(flight_s) / 3600.0;
@@ -37,9 +45,24 @@ impl Leg {
             energy_kwh,
             mean_power_kw: energy_kwh / flight_h,
             flight_s,
-            charge_s: nearest_second(3600.0 * energy_kwh / kind.charge_kw),
+            ground_s: match operations.charging {
+                Charging::ToFull => kind.turnaround_s.max(refill_s(energy_kwh, kind, to)),
+                Charging::AsNeeded => kind.turnaround_s,
+            },
         }
     }
+}
+
+/// Seconds to charge the last `energy_kwh` of a full battery at a vertiport (Eq. 14).
+pub(crate) fn refill_s(energy_kwh: f64, kind: &AircraftType, at: &Vertiport) -> u32 {
+    if kind.charge_curve.is_some() {
+        let left_kwh = kind.battery_kwh - energy_kwh;
+        return nearest_second(
+            ChargeRate::of(kind, at).seconds_between(left_kwh, kind.battery_kwh),
+        );
+    }
+    let most_kw = kind.charge_kw.min(at.charger_kw.unwrap_or(f64::INFINITY));
+    nearest_second(3600.0 * energy_kwh / most_kw)
 }
 
 /// Rounds to the nearest second, halves up. A leg that no battery lasts for may take absurdly long.
@@ -62,6 +85,8 @@ pub struct Legs {
     /// By type, then from: the other vertiports that a corridor leads to and a full battery
     /// reaches.
     within_range: Vec<VertiportSet>,
+    /// By type, then vertiport, on days that charge as needed; empty on others.
+    rates: Vec<ChargeRate>,
 }
 
 impl Legs {
@@ -73,7 +98,9 @@ impl Legs {
         for kind in &scenario.aircraft_types {
             for from in VertiportIx::all(vertiports) {
                 let row = scenario.distance_mi.row(from);
-                legs.extend(row.iter().map(|&mi| Leg::between(mi, kind, &scenario.operations)));
+                let ends = row.iter().zip(&scenario.vertiports);
+                let leg = |(&mi, to)| Leg::between(mi, kind, to, &scenario.operations);
+                legs.extend(ends.map(leg));
                 let row = &legs[legs.len() - vertiports..];
                 within_range.push(
                     VertiportIx::all(vertiports)
@@ -83,7 +110,7 @@ impl Legs {
                 );
             }
         }
-        Self { vertiports, by_pair: legs, within_range }
+        Self { vertiports, by_pair: legs, within_range, rates: rates(scenario) }
     }
 
     /// The leg of one type between two vertiports.
@@ -99,9 +126,33 @@ impl Legs {
             [..self.vertiports]
     }
 
+    /// How fast a type charges at a vertiport, on days that charge as needed.
+    ///
+    /// # Panics
+    /// Panics on days that charge to full.
+    #[inline]
+    pub fn rate(&self, kind: TypeIx, at: VertiportIx) -> &ChargeRate {
+        &self.rates[kind.at() * self.vertiports + at.at()]
+    }
+
+    /// Whether aircraft decide before they are full.
+    #[inline]
+    pub fn charge_as_needed(&self) -> bool {
+        !self.rates.is_empty()
+    }
+
     /// The other vertiports that a corridor leads to and a full battery reaches.
     #[inline]
     pub fn within_range(&self, kind: TypeIx, from: VertiportIx) -> &VertiportSet {
         &self.within_range[kind.at() * self.vertiports + from.at()]
     }
+}
+
+/// How fast each type charges at each vertiport, on days that charge as needed.
+fn rates(scenario: &Scenario) -> Vec<ChargeRate> {
+    if scenario.operations.charging == Charging::ToFull {
+        return Vec::new();
+    }
+    let at_all = |kind| scenario.vertiports.iter().map(move |at| ChargeRate::of(kind, at));
+    scenario.aircraft_types.iter().flat_map(at_all).collect()
 }

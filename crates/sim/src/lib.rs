@@ -25,6 +25,7 @@
 //! # }
 //! ```
 
+mod batteries;
 mod boarded;
 pub mod check;
 mod closures;
@@ -38,6 +39,7 @@ mod ledger;
 mod legs;
 pub mod live;
 mod outages;
+mod outcome;
 mod queue;
 mod room;
 mod simulation;
@@ -54,7 +56,8 @@ pub use error::Refusal;
 pub use imagined::Imagined;
 pub use ledger::Ledger;
 pub use legs::{Leg, Legs};
-pub use simulation::{Decision, Simulation};
+pub use outcome::Outcome;
+pub use simulation::{Decision, Simulation, first_decision};
 pub use snapshot::Snapshot;
 pub use trace::{Trace, TraceError, TraceRow};
 pub use vertiport_set::VertiportSet;

@@ -6,6 +6,7 @@
 //! to the cent. Reports are taken one after the other ([`LiveDay::take`]), so a day is a function
 //! of its scenario and its reports.
 
+mod charges;
 mod remaining_day;
 mod report;
 mod reporter;
@@ -112,17 +113,19 @@ impl LiveDecision {
     }
 }
 
-/// An aircraft before a decision: when it was charged, when it had landed, and whether it waited
-/// without a charger.
+/// An aircraft before a decision: when it was charged, when it had landed and with which charge,
+/// and whether it waited without a charger.
 #[derive(Debug, Clone, Copy)]
 struct Before {
     charged: Time,
     arrival: Time,
+    /// Milliwatt-hours; 0 on days that charge to full.
+    landed_mwh: u64,
     waited: bool,
 }
 
 /// The known state of an aircraft.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AircraftNow {
     /// The aircraft.
     pub aircraft: AircraftIx,
@@ -141,6 +144,11 @@ pub struct AircraftNow {
     pub out_until: Option<Time>,
     /// Whether it waits for a decision.
     pub needs_decision: bool,
+    /// What its battery holds now, kWh; `None` in the air, and on days that charge to full.
+    pub charge_kwh: Option<f64>,
+    /// What its battery will hold when it lands, kWh, if it is on its way; `None` on days that
+    /// charge to full.
+    pub lands_with_kwh: Option<f64>,
 }
 
 /// A closure as one for each direction that it closes.
@@ -159,11 +167,15 @@ impl LiveDay {
             if scenario.disturbances.is_none() { scenario } else { Arc::new(scenario.expected()) };
         let known = Simulation::new(Arc::clone(&scenario));
         let start = scenario.operations.start;
-        let standing =
-            LiveAircraft { phase: Phase::Standing, charged: start, out: None, undoable: None };
+        let standing = |aircraft| LiveAircraft {
+            phase: Phase::Standing,
+            charged: known.queue.ready_at(aircraft),
+            out: None,
+            undoable: None,
+        };
         Self {
             now: start,
-            aircraft: vec![standing; scenario.aircraft.len()],
+            aircraft: AircraftIx::all(scenario.aircraft.len()).map(standing).collect(),
             decisions: Vec::new(),
             boarded: vec![0; known.demand.cells()],
             closures: scenario.disturbances.closures.iter().flat_map(one_way).collect(),
@@ -214,6 +226,8 @@ impl LiveDay {
                 _ => None,
             },
             needs_decision: self.decision(aircraft, self.now).is_ok(),
+            charge_kwh: self.charge_kwh(aircraft),
+            lands_with_kwh: self.lands_with_kwh(aircraft),
         }
     }
 
@@ -294,7 +308,10 @@ impl LiveDay {
                     let waits_for_first = first.is_some_and(|first| aircraft < first);
                     known.max(time + u32::from(waits_for_first))
                 }
-                Phase::SentOff { departs, .. } => {
+                Phase::SentOff { flight, departs } => {
+                    if departs < time {
+                        self.charge_until(&mut day.batteries, flight, time);
+                    }
                     self.late(day, aircraft, time.since(departs), known)
                 }
                 Phase::InTheAir { .. } => {

@@ -2,6 +2,7 @@
 
 use vertifleet_core::{AircraftIx, Scenario, Time};
 
+use crate::first_decision;
 use crate::room::clone_into_room;
 
 /// The landing time of an aircraft that has held since it landed, or has not landed yet. No outage
@@ -27,9 +28,9 @@ impl Outages {
         let mut all: Vec<_> =
             outages.map(|outage| (outage.aircraft, outage.start, outage.end)).collect();
         all.sort_by_key(|&(aircraft, ..)| aircraft);
-        let start = scenario.operations.start;
         let fleet = if all.is_empty() { 0 } else { scenario.aircraft.len() };
-        Self { all, landings: vec![(NONE, start); fleet] }
+        let first = |aircraft| (NONE, first_decision(scenario, aircraft));
+        Self { all, landings: AircraftIx::all(fleet).map(first).collect() }
     }
 
     /// Whether the day has no outages.

@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Charging, Scenario, Time, VertiportIx};
 
+use crate::batteries::Batteries;
 use crate::closures::Closures;
 use crate::delays::Delays;
 use crate::demand::Demand;
+use crate::legs::refill_s;
 use crate::outages::Outages;
 use crate::queue::ReadyQueue;
 use crate::room::clone_into_room;
@@ -27,6 +29,30 @@ pub struct Decision {
     pub index: u32,
 }
 
+/// When each aircraft decides first: at the start of operations, or where days charge to full, once
+/// its battery is.
+fn first_decisions(scenario: &Scenario) -> ReadyQueue {
+    let start = scenario.operations.start;
+    let mut queue = ReadyQueue::new(scenario.aircraft.len(), start);
+    for aircraft in AircraftIx::all(scenario.aircraft.len()) {
+        queue.set(aircraft, first_decision(scenario, aircraft));
+    }
+    queue
+}
+
+/// The time at which an aircraft decides first on its day.
+pub fn first_decision(scenario: &Scenario, aircraft: AircraftIx) -> Time {
+    let start = scenario.operations.start;
+    let aircraft = &scenario.aircraft[aircraft.at()];
+    let kind = &scenario.aircraft_types[aircraft.kind.at()];
+    match (scenario.operations.charging, aircraft.start_charge_kwh) {
+        (Charging::ToFull, Some(kwh)) => {
+            start + refill_s(kind.battery_kwh - kwh, kind, &scenario.vertiports[aircraft.at.at()])
+        }
+        _ => start,
+    }
+}
+
 /// Later than any time of a day.
 const NEVER: Time = Time::from_seconds(u32::MAX);
 
@@ -44,6 +70,7 @@ pub struct Simulation {
     pub(crate) place: Vec<VertiportIx>,
     /// The time at which each aircraft landed there or will land, or the start of operations.
     pub(crate) arrival: Vec<Time>,
+    pub(crate) batteries: Batteries,
     pub(crate) ledger: Ledger,
     pub(crate) closures: Closures,
     outages: Outages,
@@ -73,6 +100,7 @@ clone_into_room!(Simulation {
     queue,
     place,
     arrival,
+    batteries,
     ledger,
     closures,
     outages,
@@ -92,9 +120,10 @@ impl Simulation {
             legs: Arc::new(Legs::of(&scenario)),
             stands: Stands::at_start(&scenario),
             demand: Demand::of(&scenario),
-            queue: ReadyQueue::new(scenario.aircraft.len(), scenario.operations.start),
+            queue: first_decisions(&scenario),
             place: scenario.aircraft.iter().map(|aircraft| aircraft.at).collect(),
             arrival: vec![scenario.operations.start; scenario.aircraft.len()],
+            batteries: Batteries::at_start(&scenario),
             ledger: Ledger::at_start(&scenario),
             closures: Closures::of(&scenario),
             outages: Outages::of(&scenario),
@@ -194,6 +223,7 @@ impl Simulation {
         if self.legs.within_range(kind, decision.at).contains(choice)
             && self.stands.open().contains(choice)
             && (self.closures.is_empty() || !self.closures.from(decision.at).contains(choice))
+            && (self.batteries.are_always_full() || self.takes_off_in_time(decision, choice))
         {
             return Ok(self.fly(decision, choice));
         }
@@ -216,8 +246,10 @@ impl Simulation {
             Refusal::OutOfRange { aircraft, to }
         } else if self.closures.from(decision.at).contains(choice) {
             Refusal::Closed { aircraft, to }
-        } else {
+        } else if !self.stands.open().contains(choice) {
             Refusal::NoStandFree { aircraft, to }
+        } else {
+            Refusal::ChargedTooLate { aircraft, to }
         }
     }
 
@@ -225,7 +257,12 @@ impl Simulation {
     fn hold(&mut self, decision: &Decision) -> TraceRow {
         let ready = decision.time + self.scenario.operations.hold_s;
         self.queue.set(decision.aircraft, ready);
-        self.stands.hold(decision.aircraft, decision.at);
+        let mut charge_kwh = 0.0;
+        if self.batteries.are_always_full() {
+            self.stands.hold(decision.aircraft, decision.at);
+        } else {
+            charge_kwh = self.hold_charging(decision);
+        }
         if self.surprises {
             self.outages.hold(decision.aircraft, ready);
         }
@@ -241,6 +278,8 @@ impl Simulation {
             energy_kwh: 0.0,
             energy_cost_usd: 0.0,
             flight_cost_usd: 0.0,
+            charge_kwh,
+            takeoff: decision.time,
             arrival: decision.time,
             ready,
         }
@@ -256,8 +295,13 @@ impl Simulation {
         let pair = (from, to);
 
         let passengers = self.demand.board(self.period, from, to, seats);
-        let mut arrival = time + leg.flight_s;
-        let mut ready = arrival + leg.charge_s;
+        let (mut takeoff, mut charge_kwh) = (time, 0.0);
+        if !self.batteries.are_always_full() {
+            takeoff = self.takeoff(decision, to);
+            charge_kwh = self.charge_mwh(aircraft, time) as f64 / 1e6;
+        }
+        let mut arrival = takeoff + leg.flight_s;
+        let mut ready = arrival + leg.ground_s;
         if self.surprises {
             (arrival, ready) = self.disturbed(decision, arrival, ready);
         } else {
@@ -276,9 +320,16 @@ impl Simulation {
             energy_kwh: leg.energy_kwh,
             energy_cost_usd: leg.energy_kwh * self.energy_price_at(arrival),
             flight_cost_usd: self.scenario.flight_cost_usd[pair],
+            charge_kwh,
+            takeoff,
             arrival,
             ready,
         };
+        if !self.batteries.are_always_full() {
+            let left = Time::from_seconds(arrival.seconds() - leg.flight_s);
+            let mwh = self.lands_with_mwh(aircraft, left, leg.energy_kwh);
+            self.batteries.land(aircraft, mwh);
+        }
         self.stands.transfer(aircraft, from, to);
         self.place[aircraft.at()] = to;
         self.arrival[aircraft.at()] = arrival;
@@ -319,6 +370,9 @@ impl Simulation {
         let mut mask = self.legs.within_range(kind, decision.at).and(self.stands.open());
         if !self.closures.is_empty() {
             mask = mask.without(&self.closures.from(decision.at));
+        }
+        if !self.batteries.are_always_full() {
+            mask = self.charged_in_time(decision, &mask);
         }
         mask.insert(decision.at);
         mask

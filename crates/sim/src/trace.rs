@@ -8,13 +8,12 @@ mod error;
 mod read;
 mod write;
 
-use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Charging, Scenario, Time, VertiportIx};
 
 pub use error::TraceError;
 
-/// The members of a row, in the order of the file's columns. The last one exists only on days on
-/// which flights have a cost besides their energy.
-const COLUMNS: [&str; 12] = [
+/// The members of a row that every file has, in the order of its columns.
+const COLUMNS: [&str; 11] = [
     "time",
     "aircraft",
     "from",
@@ -26,12 +25,23 @@ const COLUMNS: [&str; 12] = [
     "energy_cost",
     "arrival",
     "ready",
-    "flight_cost",
 ];
 
+/// The column on days on which flights have a cost besides their energy.
+const FLIGHT_COST: &str = "flight_cost";
+/// The columns on days that charge as needed.
+const CHARGE: [&str; 2] = ["charge_kwh", "takeoff"];
+
 /// The columns of the traces of a day.
-fn columns(scenario: &Scenario) -> &'static [&'static str] {
-    if scenario.has_flight_costs() { &COLUMNS } else { &COLUMNS[..COLUMNS.len() - 1] }
+fn columns(scenario: &Scenario) -> Vec<&'static str> {
+    let mut columns = COLUMNS.to_vec();
+    if scenario.has_flight_costs() {
+        columns.push(FLIGHT_COST);
+    }
+    if scenario.operations.charging == Charging::AsNeeded {
+        columns.extend(CHARGE);
+    }
+    columns
 }
 
 /// One decision and what came of it. A hold goes from a vertiport to itself, has no passengers and
@@ -58,6 +68,12 @@ pub struct TraceRow {
     pub energy_cost_usd: f64,
     /// Cost of the flight without its energy, with or without passengers; dollars.
     pub flight_cost_usd: f64,
+    /// What the battery holds at the decision, kWh. Only on days that charge as needed; 0 on
+    /// others.
+    pub charge_kwh: f64,
+    /// The time at which the battery suffices for the flight: that of the decision on days that
+    /// charge to full, and for a hold. A flight that is delayed takes off later.
+    pub takeoff: Time,
     /// The time at which the flight ends.
     pub arrival: Time,
     /// The time at which the aircraft can decide again.

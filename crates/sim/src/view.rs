@@ -2,9 +2,13 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{AircraftIx, AircraftType, ClosedTimes, Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_core::{
+    AircraftIx, AircraftType, ChargeRate, ClosedTimes, Scenario, Time, TypeIx, VertiportIx,
+};
 
-use crate::{Decision, Departures, Imagined, Leg, Refusal, Simulation, Snapshot, VertiportSet};
+use crate::{
+    Decision, Departures, Imagined, Leg, Outcome, Refusal, Simulation, Snapshot, VertiportSet,
+};
 
 /// The state of the day at the moment of a decision. It is borrowed and costs nothing to make.
 #[derive(Debug, Clone, Copy)]
@@ -78,6 +82,46 @@ impl<'a> View<'a> {
     #[inline]
     pub fn leg(&self, kind: TypeIx, from: VertiportIx, to: VertiportIx) -> &'a Leg {
         self.simulation.legs().leg(kind, from, to)
+    }
+
+    /// Whether aircraft decide before they are full, so that the charge of each matters.
+    #[inline]
+    pub fn charges_as_needed(&self) -> bool {
+        self.simulation.legs().charge_as_needed()
+    }
+
+    /// What follows from a choice if it is on time. Only within range: the take-off of a flight for
+    /// which no charge suffices means nothing.
+    #[inline]
+    pub fn outcome(&self, decision: &Decision, to: VertiportIx) -> Outcome {
+        Outcome::of(self.simulation, decision, to)
+    }
+
+    /// What the battery of an aircraft holds when it decides next, as expected, kWh. On a day that
+    /// charges to full this is its capacity.
+    pub fn charge_kwh(&self, aircraft: AircraftIx) -> f64 {
+        if self.charges_as_needed() {
+            return self.charge_mwh(aircraft) as f64 / 1e6;
+        }
+        self.aircraft_type(self.kind(aircraft)).battery_kwh
+    }
+
+    /// What the battery of an aircraft holds when it decides next, as expected, mWh. For days that
+    /// charge as needed.
+    pub fn charge_mwh(&self, aircraft: AircraftIx) -> u64 {
+        self.simulation.charge_mwh(aircraft, self.ready_at(aircraft))
+    }
+
+    /// What the battery of the deciding aircraft holds, mWh. For days that charge as needed.
+    #[inline]
+    pub fn charge_mwh_at(&self, decision: &Decision) -> u64 {
+        self.simulation.charge_mwh(decision.aircraft, decision.time)
+    }
+
+    /// How fast a type charges at a vertiport. For days that charge as needed.
+    #[inline]
+    pub fn charge_rate(&self, kind: TypeIx, at: VertiportIx) -> &'a ChargeRate {
+        self.simulation.legs().rate(kind, at)
     }
 
     /// The legs of one type from a vertiport to each vertiport.

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use proptest::prelude::{Just, Strategy, any, prop};
 use vertifleet_core::{
-    Aircraft, AircraftType, Day, Disturbances, Matrix, Operations, Scenario, Time, TypeIx,
-    Vertiport, VertiportIx,
+    Aircraft, AircraftType, Charging, Day, Disturbances, Matrix, Operations, Scenario, Time,
+    TypeIx, Vertiport, VertiportIx,
 };
 
 /// Days with 1 to 5 vertiports, 1 to 6 aircraft of 1 or 2 types and a few periods. Stands and
@@ -47,6 +47,7 @@ fn day(
             y_mi,
             stands,
             chargers: None,
+            charger_kw: None,
             busy: false,
             degrees: None,
             stand_cost_usd: if seed % 5 == 2 { 3.25 } else { 0.0 },
@@ -72,6 +73,7 @@ fn day(
             landing_s,
             hold_s,
             passenger_wait_s: 0,
+            charging: Charging::ToFull,
         },
         aircraft_types: (0..types)
             .map(|kind| AircraftType {
@@ -82,6 +84,9 @@ fn day(
                 energy_kwh_per_mi: [2.2, 3.0][kind],
                 charge_kw: 150.0,
                 self_discharge_per_h: [0.0, 0.01][kind],
+                reserve_kwh: 0.0,
+                turnaround_s: 0,
+                charge_curve: None,
             })
             .collect(),
         aircraft: (1..)
@@ -90,6 +95,7 @@ fn day(
                 id: format!("A{number:02}"),
                 kind: TypeIx::new(kind),
                 at: VertiportIx::new(at),
+                start_charge_kwh: None,
             })
             .collect(),
         fare_usd: Matrix::from_fn(size, |from, to| 3.0 * distance_mi[(from, to)] + 1.25).into(),

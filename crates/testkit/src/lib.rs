@@ -11,6 +11,7 @@
 //! assert!(any_day(7, tiny).vertiports.len() <= 3);
 //! ```
 
+mod any_energy_day;
 mod any_extended_day;
 mod any_small_day;
 mod numbered_days;
@@ -22,6 +23,7 @@ use std::sync::Arc;
 
 use vertifleet_core::{DaySeed, Network, Scenario};
 
+pub use any_energy_day::{any_energy_day, energy_day, with_energy};
 pub use any_extended_day::extended_day;
 pub use any_small_day::small_day;
 pub use numbered_days::{Size, any_day, any_extended_day};

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use vertifleet_core::{
-    Aircraft, AircraftIx, AircraftType, Closure, Day, Disturbances, Fares, Matrix, Operations,
-    Outage, Route, Scenario, TakeoffDelays, Time, TypeIx, Vertiport, VertiportIx,
+    Aircraft, AircraftIx, AircraftType, Charging, Closure, Day, Disturbances, Fares, Matrix,
+    Operations, Outage, Route, Scenario, TakeoffDelays, Time, TypeIx, Vertiport, VertiportIx,
 };
 
 /// The largest size that a day may have.
@@ -36,6 +36,7 @@ pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
             id: format!("A{number}"),
             kind: TypeIx::new(random.random_range(0..types)),
             at: VertiportIx::new(random.random_range(0..size)),
+            start_charge_kwh: None,
         })
         .collect();
     let vertiports: Vec<Vertiport> = (0..size)
@@ -47,6 +48,7 @@ pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
                 y_mi: random.random_range(0.0..30.0),
                 stands: u16::try_from(standing).expect("few").max(1) + random.random_range(0..=1),
                 chargers: None,
+                charger_kw: None,
                 busy: false,
                 degrees: None,
                 stand_cost_usd: if number.is_multiple_of(4) { 1.5 } else { 0.0 },
@@ -82,6 +84,7 @@ pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
             landing_s: random.random_range(30..900),
             hold_s: random.random_range(300..1800),
             passenger_wait_s: 0,
+            charging: Charging::ToFull,
         },
         aircraft_types: (0..types)
             .map(|kind| AircraftType {
@@ -92,6 +95,9 @@ pub fn any_day(number: u64, most: Size) -> Arc<Scenario> {
                 energy_kwh_per_mi: [2.2, 3.0][kind],
                 charge_kw: 150.0,
                 self_discharge_per_h: [0.0, 0.01][kind],
+                reserve_kwh: 0.0,
+                turnaround_s: 0,
+                charge_curve: None,
             })
             .collect(),
         fare_usd: Matrix::from_fn(size, |from, to| 2.0 * distance_mi[(from, to)] + 1.25).into(),

@@ -143,7 +143,7 @@ class NewDay(TypedDict):
 Times: TypeAlias = Literal["clock", "iso"]
 """The format of times in an answer."""
 
-RuleName: TypeAlias = Literal["out_of_range", "no_corridor", "closed", "no_stand_free"]
+RuleName: TypeAlias = Literal["out_of_range", "no_corridor", "closed", "no_stand_free", "charged_too_late"]
 """A rule that forbids a flight."""
 
 
@@ -175,10 +175,16 @@ class Alternative(TypedDict):
     """Aircraft that occupy them, standing there or on their way."""
     impossible: NotRequired[Impossible | None]
     """The reason why it is not possible; absent if it is."""
+    needs_kwh: NotRequired[float | None]
+    """What the battery needs for it to take off: the energy of the flight and the reserve, kWh; on days that
+    charge as needed.
+    """
     passenger_price_usd: NotRequired[float | None]
     """The price of carrying one passenger there now rather than later, dollars."""
     stand_price_usd: NotRequired[float | None]
     """The price of a stand there until the aircraft is ready, dollars."""
+    takeoff: NotRequired[Moment | None]
+    """When it would take off, on days that charge as needed; absent on others, and for a hold."""
     value: NotRequired[float | None]
     """The value that the policy compares its choices by: dollars for policies that price the rest of the day
     or roll it out, dollars an hour for `greedy`. Absent if the policy did not consider this choice.
@@ -335,6 +341,8 @@ class LandedEvent(TypedDict):
     """The aircraft."""
     at: NotRequired[str | None]
     """The vertiport, if it is not the planned destination."""
+    charge_kwh: NotRequired[float | None]
+    """The charge of the battery, kWh, if it is not what was expected. Only on days that charge as needed."""
     time: NotRequired[Moment | None]
     """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
@@ -709,6 +717,9 @@ FlightState = TypedDict(
         "decided": Moment,
         # Passengers on board.
         "passengers": int,
+        # When the battery suffices, so that it takes off unless it is delayed; only on days that
+        # charge as needed.
+        "takeoff": NotRequired[Moment | None],
     },
 )
 """A flight that has not landed."""
@@ -731,8 +742,14 @@ class AircraftState(TypedDict):
     """Whether it waits for a decision."""
     out_of_service: bool
     """Whether it is out of service."""
+    charge_kwh: NotRequired[float | None]
+    """What its battery holds now, kWh; only on the ground, on days that charge as needed."""
     flight: NotRequired[FlightState | None]
     """The flight that it was dispatched on, until it has landed."""
+    lands_with_kwh: NotRequired[float | None]
+    """What its battery will hold when it lands, kWh, if it was dispatched; only on days that charge as
+    needed.
+    """
     out_until: NotRequired[Moment | None]
     """When it is expected back in service, if that is known."""
 

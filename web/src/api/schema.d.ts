@@ -561,9 +561,20 @@ export interface components {
         AircraftState: {
             /** @description When it landed there or is expected to. */
             arrival: components["schemas"]["Moment"];
+            /**
+             * Format: double
+             * @description What its battery holds now, kWh; only on the ground, on days that charge as needed.
+             */
+            charge_kwh?: number | null;
             flight?: components["schemas"]["FlightState"] | null;
             /** @description Its id. */
             id: string;
+            /**
+             * Format: double
+             * @description What its battery will hold when it lands, kWh, if it was dispatched; only on days that
+             *     charge as needed.
+             */
+            lands_with_kwh?: number | null;
             /** @description Whether it waits for a decision. */
             needs_decision: boolean;
             /** @description Whether it is out of service. */
@@ -586,6 +597,12 @@ export interface components {
              */
             flight_profit_usd: number;
             impossible?: components["schemas"]["Impossible"] | null;
+            /**
+             * Format: double
+             * @description What the battery needs for it to take off: the energy of the flight and the reserve, kWh; on
+             *     days that charge as needed.
+             */
+            needs_kwh?: number | null;
             /**
              * Format: double
              * @description The price of carrying one passenger there now rather than later, dollars.
@@ -613,6 +630,7 @@ export interface components {
              * @description Aircraft that occupy them, standing there or on their way.
              */
             stands_taken: number;
+            takeoff?: components["schemas"]["Moment"] | null;
             /** @description The vertiport; the aircraft's own means hold. */
             to: string;
             /**
@@ -844,6 +862,12 @@ export interface components {
             aircraft: string;
             /** @description The vertiport, if it is not the planned destination. */
             at?: string | null;
+            /**
+             * Format: double
+             * @description The charge of the battery, kWh, if it is not what was expected. Only on days that charge
+             *     as needed.
+             */
+            charge_kwh?: number | null;
             time?: components["schemas"]["Moment"] | null;
             /** @enum {string} */
             type: "landed";
@@ -971,6 +995,7 @@ export interface components {
              * @description Passengers on board.
              */
             passengers: number;
+            takeoff?: components["schemas"]["Moment"] | null;
             /** @description The vertiport of destination. */
             to: string;
         };
@@ -1450,7 +1475,7 @@ export interface components {
          * @description A rule that forbids a flight.
          * @enum {string}
          */
-        RuleName: "out_of_range" | "no_corridor" | "closed" | "no_stand_free";
+        RuleName: "out_of_range" | "no_corridor" | "closed" | "no_stand_free" | "charged_too_late";
         /** @description The properties of the service, and the rights of the sender. */
         ServiceInfo: {
             /** @description The policy that decides on a day if none is named. */

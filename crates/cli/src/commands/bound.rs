@@ -19,7 +19,7 @@ use crate::shadow_prices;
 
 pub(crate) fn run(arguments: &BoundArguments) -> Result<ExitCode, Failure> {
     end_on_interrupt()?;
-    let step = Step::from_minutes(arguments.step)?;
+    let step = Step::from_minutes(arguments.step)?.with_levels(arguments.levels)?;
     let network = arguments.without_foresight.as_deref().map(Network::find).transpose()?;
     let bounded = |scenario| Day::bounded(scenario, step, network.as_ref());
     let (numbers, lines) = match &arguments.scenarios[..] {

@@ -46,7 +46,8 @@ fn twenty_kills_change_no_byte() {
     assert!(run(&one).success());
     let kept = || {
         let journal = fs::read_to_string(other.join("out/cells.jsonl")).unwrap_or_default();
-        journal.lines().count().saturating_sub(1)
+        // A kill may leave the last line torn, and the next process removes it.
+        journal.matches('\n').count().saturating_sub(1)
     };
     for kill in 0..KILLS {
         let before = kept();

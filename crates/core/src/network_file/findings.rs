@@ -7,7 +7,9 @@
 use std::path::Path;
 
 use super::sites::Sites;
-use super::{DemandModels, FORMAT, RawNetwork, fleet, name, network, start_stands, time_zone};
+use super::{
+    DemandModels, FORMAT, RawNetwork, fleet, name, network, start_charge, start_stands, time_zone,
+};
 use crate::raw::Positions;
 use crate::{Error, FormatError, parse};
 
@@ -46,6 +48,7 @@ impl RawNetwork {
         found.check(
             self.start_stands.map_or(Ok(()), |raw| start_stands(raw, vertiports).map(|_| ())),
         );
+        found.check(self.start_charge.map_or(Ok(()), |raw| start_charge(raw).map(|_| ())));
         let types = self.aircraft_types.len();
         let kinds: Vec<_> = self
             .aircraft_types

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use crate::limits::number;
 use crate::{
-    Closure, Degrees, Disturbances, Error, Matrix, Outage, OutputKind, Route, Scenario,
-    TakeoffDelays, VertiportIx, write_atomically,
+    Charging, Closure, CurvePoint, Degrees, Disturbances, Error, Matrix, Outage, OutputKind, Route,
+    Scenario, TakeoffDelays, VertiportIx, write_atomically,
 };
 
 impl Scenario {
@@ -74,8 +74,12 @@ impl Scenario {
             0 => String::new(),
             wait_s => format!(r#", "passenger_wait_s": {wait_s}"#),
         };
+        let charging = match day.charging {
+            Charging::ToFull => "",
+            Charging::AsNeeded => r#", "charging": "as_needed""#,
+        };
         format!(
-            r#"{{"start": "{}", "end": "{}", "takeoff_s": {}, "landing_s": {}, "hold_s": {}{wait}}}"#,
+            r#"{{"start": "{}", "end": "{}", "takeoff_s": {}, "landing_s": {}, "hold_s": {}{wait}{charging}}}"#,
             day.start, day.end, day.takeoff_s, day.landing_s, day.hold_s
         )
     }
@@ -84,6 +88,8 @@ impl Scenario {
         let vertiport = |vertiport: &crate::Vertiport| {
             let chargers =
                 vertiport.chargers.map(|chargers| format!(r#", "chargers": {chargers}"#));
+            let charger_kw =
+                vertiport.charger_kw.map(|kw| format!(r#", "charger_kw": {}"#, number(kw)));
             let degrees = vertiport.degrees.map(|Degrees { latitude, longitude }| {
                 let (latitude, longitude) = (number(latitude), number(longitude));
                 format!(r#", "latitude": {latitude}, "longitude": {longitude}"#)
@@ -95,12 +101,13 @@ impl Scenario {
                 format!(r#", "{name}": {}"#, number(cost_usd))
             };
             format!(
-                r#"{{"id": {}, "x_mi": {}, "y_mi": {}, "stands": {}{}, "busy": {}{}{}{}}}"#,
+                r#"{{"id": {}, "x_mi": {}, "y_mi": {}, "stands": {}{}{}, "busy": {}{}{}{}}}"#,
                 text(&vertiport.id),
                 number(vertiport.x_mi),
                 number(vertiport.y_mi),
                 vertiport.stands,
                 chargers.unwrap_or_default(),
+                charger_kw.unwrap_or_default(),
                 vertiport.busy,
                 degrees.unwrap_or_default(),
                 cost("stand_cost", vertiport.stand_cost_usd),
@@ -122,6 +129,21 @@ impl Scenario {
             ] {
                 write!(json, r#", "{name}": {}"#, number(value)).expect("a String takes any text");
             }
+            if kind.reserve_kwh != 0.0 {
+                write!(json, r#", "reserve_kwh": {}"#, number(kind.reserve_kwh))
+                    .expect("a String takes any text");
+            }
+            if kind.turnaround_s != 0 {
+                write!(json, r#", "turnaround_s": {}"#, kind.turnaround_s)
+                    .expect("a String takes any text");
+            }
+            if let Some(curve) = &kind.charge_curve {
+                let point = |point: &CurvePoint| {
+                    format!("[{}, {}]", number(point.charge), number(point.kw))
+                };
+                let points = row(curve.points().iter().map(point));
+                write!(json, r#", "charge_curve": {points}"#).expect("a String takes any text");
+            }
             json + "}"
         };
         lines(self.aircraft_types.iter().map(kind), 2)
@@ -129,11 +151,16 @@ impl Scenario {
 
     fn aircraft_json(&self) -> String {
         let aircraft = |aircraft: &crate::Aircraft| {
+            let charge = aircraft.start_charge_kwh.map(|kwh| {
+                let kwh = number(kwh);
+                format!(r#", "start_charge_kwh": {kwh}"#)
+            });
             format!(
-                r#"{{"id": {}, "type": {}, "at": {}}}"#,
+                r#"{{"id": {}, "type": {}, "at": {}{}}}"#,
                 text(&aircraft.id),
                 text(&self.aircraft_types[aircraft.kind.at()].id),
-                text(&self.vertiports[aircraft.at.at()].id)
+                text(&self.vertiports[aircraft.at.at()].id),
+                charge.unwrap_or_default()
             )
         };
         lines(self.aircraft.iter().map(aircraft), 2)

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use proptest::prelude::{Strategy, any, prop};
 use vertifleet_core::{
-    Aircraft, AircraftIx, AircraftType, Day, Degrees, Disturbances, Matrix, Operations, Scenario,
-    Time, TypeIx, Vertiport, VertiportIx,
+    Aircraft, AircraftIx, AircraftType, Charging, Day, Degrees, Disturbances, Matrix, Operations,
+    Scenario, Time, TypeIx, Vertiport, VertiportIx,
 };
 use vertifleet_export::{Calendar, Flown};
 use vertifleet_sim::{Simulation, TraceRow};
@@ -51,6 +51,7 @@ pub(crate) fn tiny() -> Played {
         y_mi: 0.0,
         stands: 2,
         chargers: None,
+        charger_kw: None,
         busy: false,
         degrees: Some(Degrees { latitude, longitude }),
         stand_cost_usd: 0.0,
@@ -67,6 +68,7 @@ pub(crate) fn tiny() -> Played {
             landing_s: 300,
             hold_s: 900,
             passenger_wait_s: 0,
+            charging: Charging::ToFull,
         },
         vertiports: vec![
             vertiport("Pier, \"East\"", 0.0, 40.7033, -74.0170),
@@ -80,11 +82,15 @@ pub(crate) fn tiny() -> Played {
             energy_kwh_per_mi: 2.0,
             charge_kw: 120.0,
             self_discharge_per_h: 0.0,
+            reserve_kwh: 0.0,
+            turnaround_s: 0,
+            charge_curve: None,
         }],
         aircraft: vec![Aircraft {
             id: "A1".to_owned(),
             kind: TypeIx::new(0),
             at: VertiportIx::new(0),
+            start_charge_kwh: None,
         }],
         distance_mi: off_diagonal(10.0),
         corridors: None,
@@ -111,6 +117,8 @@ pub(crate) fn tiny() -> Played {
             energy_kwh: if flies { 20.0 } else { 0.0 },
             energy_cost_usd: if flies { 4.0 } else { 0.0 },
             flight_cost_usd: 0.0,
+            charge_kwh: 0.0,
+            takeoff: time(decided),
             arrival: time(ends[0]),
             ready: time(ends[1]),
         }

@@ -3,6 +3,7 @@
 //! prices should rise or fall.
 
 use super::certificate::{Certificate, earnings};
+use super::charge_levels::Level;
 use super::itinerary::Itinerary;
 use super::prices::Prices;
 use super::time_expanded_day::{Flight, Start, TimeExpandedDay};
@@ -19,6 +20,7 @@ pub(super) struct BestItineraries<'a> {
 struct Ready {
     layer: usize,
     at: usize,
+    level: Level,
     second: u32,
     /// Whether it still has to pay for knowing the delays of the slot, because it did not decide in
     /// it before.
@@ -44,8 +46,10 @@ impl BestItineraries<'_> {
     fn itinerary(&self, layer: usize, start: &Start) -> Itinerary {
         let slices = &self.day.slices;
         let day_s = slices.day_s();
-        let mut itinerary = Itinerary { earnings: 0.0, stays: Vec::new(), flights: Vec::new() };
-        let mut ready = Ready { layer, at: start.at, second: start.ready_s, owes: true };
+        let earnings = start.gift as f64;
+        let mut itinerary = Itinerary { earnings, stays: Vec::new(), flights: Vec::new() };
+        let Start { at, level, ready_s: second, .. } = *start;
+        let mut ready = Ready { layer, at, level, second, owes: true };
         let mut slice = slices.containing(slices.start_s(0) + ready.second.min(day_s));
         itinerary.stay(ready.at, 0..slice);
         while slice < slices.len() {
@@ -57,9 +61,12 @@ impl BestItineraries<'_> {
                 itinerary.earnings -= payment as f64;
                 ready = if let Some(flight) = self.best_flight(ready, payment, slice) {
                     itinerary.fly(flight);
-                    self.goes_on(ready, flight.to.at(), flight.block_s)
+                    self.goes_on(ready, (flight.to.at(), flight.level), flight.block_s)
                 } else {
-                    self.goes_on(ready, ready.at, self.day.hold_s)
+                    let place = self.day.place(ready.at, ready.level);
+                    let held = self.day.held(ready.layer, place) - self.day.place(ready.at, 0);
+                    let level = Level::try_from(held).expect("there are few levels");
+                    self.goes_on(ready, (ready.at, level), self.day.hold_s)
                 };
             }
             let until = slices.containing(slices.start_s(0) + ready.second.min(day_s));
@@ -70,12 +77,12 @@ impl BestItineraries<'_> {
     }
 
     /// The worth of being ready, less the price of the stand since the day began.
-    fn worth_less_paid(&self, Ready { layer, at, second, owes }: Ready) -> i64 {
-        let second = second as usize;
+    fn worth_less_paid(&self, Ready { layer, at, level, second, owes }: Ready) -> i64 {
+        let (place, second) = (self.day.place(at, level), second as usize);
         if owes {
-            self.certificate.worth_less_paid(self.day, layer, at, second)
+            self.certificate.worth_less_paid(self.day, layer, place, second)
         } else {
-            self.certificate.worth_within_slot(self.day, layer, at, second)
+            self.certificate.worth_within_slot(self.day, layer, place, second)
         }
     }
 
@@ -88,18 +95,18 @@ impl BestItineraries<'_> {
     }
 
     /// An aircraft that decided when it was `ready`, `seconds` later.
-    fn goes_on(&self, ready: Ready, at: usize, seconds: u32) -> Ready {
+    fn goes_on(&self, ready: Ready, (at, level): (usize, Level), seconds: u32) -> Ready {
         let second = ready.second + seconds;
         let penalty = self.day.penalty.as_ref();
         let past_slot = penalty.map_or(0, |penalty| penalty.past_slot(ready.second as usize));
-        Ready { at, second, owes: second as usize >= past_slot, ..ready }
+        Ready { at, level, second, owes: second as usize >= past_slot, ..ready }
     }
 
     /// An aircraft that may wait freely after it has waited for as long as being ready later is
     /// worth as much.
     fn waits(&self, mut ready: Ready) -> Ready {
         while self.day.layers[ready.layer].waits_freely && ready.second < self.day.slices.day_s() {
-            let later = self.goes_on(ready, ready.at, 1);
+            let later = self.goes_on(ready, (ready.at, ready.level), 1);
             let later = Ready { owes: later.owes || ready.owes, ..later };
             if self.worth_less_paid(ready) != self.worth_less_paid(later) {
                 break;
@@ -114,9 +121,11 @@ impl BestItineraries<'_> {
     fn best_flight(&self, ready: Ready, payment: i64, slice: usize) -> Option<&Flight> {
         let paid = |at| self.certificate.paid(self.day, slice, at);
         let here = self.worth_less_paid(ready) + payment + paid(ready.at);
-        self.day.flights(slice, ready.layer, ready.at).iter().find(|flight| {
+        let place = self.day.place(ready.at, ready.level);
+        self.day.flights(slice, ready.layer, place).iter().find(|flight| {
             let to = flight.to.at();
-            let goes_on = self.worth_less_paid(self.goes_on(ready, to, flight.block_s));
+            let next = self.goes_on(ready, (to, flight.level), flight.block_s);
+            let goes_on = self.worth_less_paid(next);
             here == earnings(self.prices, flight) + paid(to) + goes_on
         })
     }

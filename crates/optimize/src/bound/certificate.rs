@@ -26,8 +26,8 @@ pub(super) struct Certificate {
     /// slice, then vertiport.
     paid: Vec<i64>,
     /// The worth of being ready, *less* the price of the stand since the day began, so that the
-    /// payment from one second to another is one subtraction. By layer, vertiport, second of the
-    /// day, and as many seconds past its end as are ever read.
+    /// payment from one second to another is one subtraction. By layer, place, second of the day,
+    /// and as many seconds past its end as are ever read.
     ///
     /// A day has at most 7,202 slices (36 hours in minutes, 1,440 more where periods begin, as many
     /// where passengers have waited long enough, and 2,161 where slots of delays begin). An
@@ -38,7 +38,7 @@ pub(super) struct Certificate {
     /// earlier slot and still has to pay, and this is the worth to one that decided in the same
     /// slot before. Empty on other days.
     within_slot: Vec<i64>,
-    /// Distance from a vertiport to the next in `worth_less_paid`.
+    /// Distance from a place to the next in `worth_less_paid`.
     stride: usize,
     arch: Arch,
 }
@@ -47,7 +47,7 @@ impl Certificate {
     /// A certificate with memory for the evaluations of a day.
     pub(super) fn new(day: &TimeExpandedDay) -> Self {
         let stride = (day.slices.day_s() + day.shortest_s) as usize;
-        let places = day.layers.len() * day.size() * stride;
+        let places = day.layers.len() * day.places() * stride;
         Self {
             paid: Vec::with_capacity((day.slices.len() + 1) * day.size()),
             worth_less_paid: vec![0; places],
@@ -66,7 +66,7 @@ impl Certificate {
         stopped: &Stop,
     ) -> Option<i128> {
         self.pay(day, prices);
-        let of_layer = self.stride * day.size();
+        let of_layer = self.stride * day.places();
         let mut within_slot = self.within_slot.chunks_exact_mut(of_layer);
         let layers = self.worth_less_paid.chunks_exact_mut(of_layer);
         for (layer, worths) in layers.enumerate() {
@@ -94,10 +94,10 @@ impl Certificate {
         &self,
         day: &TimeExpandedDay,
         layer: usize,
-        at: usize,
+        place: usize,
         second: usize,
     ) -> i64 {
-        self.worths_less_paid(day, layer, at, second)[0]
+        self.worths_less_paid(day, layer, place, second)[0]
     }
 
     /// The same from a second on, for at least as many seconds as a hold or a flight lasts.
@@ -105,11 +105,11 @@ impl Certificate {
         &self,
         day: &TimeExpandedDay,
         layer: usize,
-        at: usize,
+        place: usize,
         second: usize,
     ) -> &[i64] {
         let second = second.min(day.slices.day_s() as usize);
-        &self.worth_less_paid[(layer * day.size() + at) * self.stride..][second..self.stride]
+        &self.worth_less_paid[(layer * day.places() + place) * self.stride..][second..self.stride]
     }
 
     /// The worth to an aircraft that decided in the same slot before, less the price of the stand
@@ -119,12 +119,13 @@ impl Certificate {
         &self,
         day: &TimeExpandedDay,
         layer: usize,
-        at: usize,
+        place: usize,
         second: usize,
     ) -> i64 {
         let known =
             if self.within_slot.is_empty() { &self.worth_less_paid } else { &self.within_slot };
-        known[(layer * day.size() + at) * self.stride + second.min(day.slices.day_s() as usize)]
+        known
+            [(layer * day.places() + place) * self.stride + second.min(day.slices.day_s() as usize)]
     }
 
     fn pay(&mut self, day: &TimeExpandedDay, prices: &Prices) {
@@ -143,8 +144,9 @@ impl Certificate {
             layers.flat_map(|(layer, kind)| kind.starts.iter().map(move |one| (layer, one)));
         let earned = |(layer, start): (usize, &Start)| {
             // The price of the stand until they are ready has been deducted.
-            let worth = self.worth_less_paid(day, layer, start.at, start.ready_s as usize);
-            i128::from(start.count) * i128::from(worth)
+            let place = day.place(start.at, start.level);
+            let worth = self.worth_less_paid(day, layer, place, start.ready_s as usize);
+            i128::from(start.count) * i128::from(worth + start.gift)
         };
         starts.map(earned).sum()
     }
@@ -171,11 +173,11 @@ impl WithSimd for LayerPass<'_> {
     fn with_simd<S: Simd>(mut self, _: S) -> bool {
         let slices = &self.day.slices;
         let day_s = slices.day_s() as usize;
-        for at in 0..self.day.size() {
-            let over = -self.paid(slices.len(), at);
-            self.worths[at * self.stride..][..self.stride][day_s..].fill(over);
+        for place in 0..self.day.places() {
+            let over = -self.paid(slices.len(), self.day.vertiport(place));
+            self.worths[place * self.stride..][..self.stride][day_s..].fill(over);
             if !self.within_slot.is_empty() {
-                self.within_slot[at * self.stride..][..self.stride][day_s..].fill(over);
+                self.within_slot[place * self.stride..][..self.stride][day_s..].fill(over);
             }
         }
         let second = |slice| (slices.start_s(slice) - slices.start_s(0)) as usize;
@@ -189,8 +191,8 @@ impl WithSimd for LayerPass<'_> {
                     return false;
                 }
                 let begin = first.max(past.saturating_sub(longest));
-                for from in 0..self.day.size() {
-                    self.work_out_piece(slice, from, begin, past);
+                for place in 0..self.day.places() {
+                    self.work_out_piece(slice, place, begin, past);
                 }
                 past = begin;
             }
@@ -210,21 +212,23 @@ impl LayerPass<'_> {
     /// seconds after them.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
-    fn work_out_piece(&mut self, slice: usize, from: usize, begin: usize, past: usize) {
+    fn work_out_piece(&mut self, slice: usize, place: usize, begin: usize, past: usize) {
+        let from = self.day.vertiport(place);
         let mut best = [i64::MIN; SIDE_BY_SIDE];
         let best = &mut best[..past - begin];
         let past_slot = self.day.penalty.as_ref().map_or(0, |penalty| penalty.past_slot(begin));
         let stays = self.paid(slice, from);
-        self.raise(best, from, begin + self.day.hold_s as usize, past_slot, 0);
-        for flight in self.day.flights(slice, self.layer, from) {
-            let to = flight.to.at();
-            let flies = earnings(self.prices, flight) + self.paid(slice, to) - stays;
+        let held = self.day.held(self.layer, place);
+        self.raise(best, held, begin + self.day.hold_s as usize, past_slot, 0);
+        for flight in self.day.flights(slice, self.layer, place) {
+            let to = self.day.place(flight.to.at(), flight.level);
+            let flies = earnings(self.prices, flight) + self.paid(slice, flight.to.at()) - stays;
             self.raise(best, to, begin + flight.block_s as usize, past_slot, flies);
         }
         let layer = &self.day.layers[self.layer];
-        let own = &mut self.worths[from * self.stride..][..self.stride];
+        let own = &mut self.worths[place * self.stride..][..self.stride];
         if let Some(penalty) = &self.day.penalty {
-            let within = &mut self.within_slot[from * self.stride..][..self.stride];
+            let within = &mut self.within_slot[place * self.stride..][..self.stride];
             within[begin..past].copy_from_slice(best);
             if layer.waits_freely {
                 let afterwards = if past < past_slot { within[past] } else { own[past] };

@@ -90,7 +90,7 @@ impl Bound {
     /// If `scenario` is not the day of the bound.
     pub fn of_designs(&self, scenario: &Scenario, may_fail: bool) -> Result<DesignBound, Error> {
         let probe = one_of_each_type(scenario, may_fail);
-        let day = TimeExpandedDay::of(&probe, &[], self.step_s())?;
+        let day = TimeExpandedDay::of(&probe, &[], self.step_s(), self.charge)?;
         let size = day.size();
         assert_eq!(self.prices.stand.len(), day.slices.len() * size, "the prices are of this day");
         let flight = self.market.prices_with_more_flights(&day.market, &self.prices.flight);
@@ -101,8 +101,11 @@ impl Bound {
         let mut aircraft = vec![0; probe.aircraft_types.len()];
         for (number, layer) in day.layers.iter().enumerate() {
             // Where it starts is drawn again for every design, so the best start counts.
-            let worths = (0..size).map(|at| certificate.worth_less_paid(&day, number, at, 0));
-            aircraft[layer.kind.at()] = worths.max().map_or(0, i128::from);
+            let starts = (0..size).map(|at| day.place(at, day.full()));
+            let worths = starts.map(|place| certificate.worth_less_paid(&day, number, place, 0));
+            // A full battery at the start, which the probe has, is the most that a design may have.
+            let gift = layer.starts.iter().map(|start| start.gift).max().unwrap_or(0);
+            aircraft[layer.kind.at()] = worths.max().map_or(0, |worth| i128::from(worth + gift));
         }
         let mut places = vec![0; size];
         for (at, &price) in self.prices.stand.iter().enumerate() {
@@ -119,8 +122,12 @@ impl Bound {
 fn one_of_each_type(scenario: &Scenario, may_fail: bool) -> Scenario {
     let mut day = scenario.clone().into_day();
     let types = day.aircraft_types.len();
-    let aircraft =
-        |kind| Aircraft { id: format!("{kind}"), kind: TypeIx::new(kind), at: VertiportIx::new(0) };
+    let aircraft = |kind| Aircraft {
+        id: format!("{kind}"),
+        kind: TypeIx::new(kind),
+        at: VertiportIx::new(0),
+        start_charge_kwh: None,
+    };
     day.aircraft = (0..types).map(aircraft).collect();
     for vertiport in &mut day.vertiports {
         vertiport.chargers = None;

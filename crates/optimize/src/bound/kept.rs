@@ -13,8 +13,10 @@ use siphasher::sip128::{Hasher128, SipHasher24};
 use vertifleet_core::{Scenario, Stop, create_folder, read_at_most, write_atomically};
 
 use super::certificate::Certificate;
+use super::charging_time::Charge;
 use super::descent::Found;
 use super::prices::Prices;
+use super::step::LEVELS;
 use super::time_expanded_day::TimeExpandedDay;
 use super::{Bound, Step, upper_bound_unless};
 use crate::Error;
@@ -31,6 +33,9 @@ struct Kept {
     minutes: u32,
     stand: Vec<i64>,
     flight: Vec<i64>,
+    /// Of a second of charging, and the number of levels of charge.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    charging: Option<(i64, u16)>,
 }
 
 /// Does the same as [`upper_bound_unless`], but takes the prices from a file in `folder` if it
@@ -51,7 +56,9 @@ pub fn kept_upper_bound(
     }
     let Some(bound) = upper_bound_unless(stopped, scenario, step)? else { return Ok(None) };
     let (minutes, Prices { stand, flight }) = (bound.step.minutes, bound.prices);
-    let kept = Kept { minutes, stand, flight };
+    let Charge { price, levels } = bound.charge;
+    let charging = (bound.charge != Charge::IGNORED).then_some((price, levels));
+    let kept = Kept { minutes, stand, flight, charging };
     create_folder(folder)?;
     write_atomically(&path, &serde_json::to_vec(&kept).expect("whole numbers are plain data"))?;
     Ok(Some(Bound { prices: Prices { stand: kept.stand, flight: kept.flight }, ..bound }))
@@ -63,7 +70,8 @@ fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Result<Option<Bound
     let Ok(text) = read_at_most(path, LONGEST) else { return Ok(None) };
     let Ok(kept) = serde_json::from_slice::<Kept>(&text) else { return Ok(None) };
     let Ok(step) = Step::from_minutes(kept.minutes) else { return Ok(None) };
-    let day = TimeExpandedDay::of(scenario, &[], step.seconds())?;
+    let charge = kept.charging.map_or(Charge::IGNORED, |(price, levels)| Charge { price, levels });
+    let day = TimeExpandedDay::of(scenario, &[], step.seconds(), charge)?;
     let Some(prices) = Prices::checked(&day, kept.stand, kept.flight) else { return Ok(None) };
     let proven = Certificate::new(&day).evaluate(&day, &prices, stopped);
     Ok(proven.map(|micro_usd| {
@@ -77,6 +85,10 @@ fn path(scenario: &Scenario, step: Step, folder: &Path) -> PathBuf {
     let mut hasher = SipHasher24::new();
     hasher.write_u64(VERSION);
     hasher.write_u32(step.seconds());
+    // Bounds with the usual levels keep the names that bounds had before there were levels.
+    if step.levels != LEVELS[0] {
+        hasher.write_u16(step.levels);
+    }
     hasher.write(scenario.to_json().as_bytes());
     let mut name = String::from("bound-");
     for byte in hasher.finish128().as_bytes() {

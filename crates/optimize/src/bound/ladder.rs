@@ -10,11 +10,12 @@
 use vertifleet_core::{Scenario, Stop, Time};
 
 use super::Bound;
+use super::charging_time::Charge;
 use super::descent::Descent;
 use super::penalty::Penalty;
 use super::prices::{Pace, Prices};
 use super::slices::Slices;
-use super::step::{STEPS, Step};
+use super::step::{LEVELS, STEPS, Step};
 use super::time_expanded_day::TimeExpandedDay;
 use crate::Error;
 
@@ -64,6 +65,8 @@ pub(crate) struct Relaxed<'a> {
     pub(crate) scenario: &'a Scenario,
     /// When aircraft decide first; those past its end are ready from the start.
     pub(crate) ready: &'a [Time],
+    /// How the charge of aircraft is relaxed.
+    pub(super) charge: Charge,
     /// The payments of aircraft for knowing delays, for a bound without foresight.
     pub(super) penalty: Option<&'a Penalty>,
 }
@@ -71,11 +74,11 @@ pub(crate) struct Relaxed<'a> {
 impl<'a> Relaxed<'a> {
     /// A day that is known in full.
     pub(crate) fn known(scenario: &'a Scenario, ready: &'a [Time]) -> Self {
-        Self { scenario, ready, penalty: None }
+        Self { scenario, ready, charge: Charge::IGNORED, penalty: None }
     }
 
-    fn day(&self, step: Step) -> Result<TimeExpandedDay, Error> {
-        let mut day = TimeExpandedDay::of(self.scenario, self.ready, step.seconds())?;
+    pub(super) fn day(&self, step: Step) -> Result<TimeExpandedDay, Error> {
+        let mut day = TimeExpandedDay::of(self.scenario, self.ready, step.seconds(), self.charge)?;
         day.penalty = self.penalty.cloned();
         Ok(day)
     }
@@ -103,9 +106,10 @@ pub(crate) fn search(
     step: Step,
     watch: &dyn Watch,
 ) -> Result<Option<Bound>, Error> {
-    TimeExpandedDay::fits(relaxed.scenario, step.seconds())?;
+    TimeExpandedDay::fits(relaxed.scenario, step.seconds(), relaxed.charge)?;
     let cuts = || CUTS.iter().filter(|cut| step.minutes <= cut.step.minutes);
     let in_all = cuts().map(|cut| cut.work(relaxed.scenario)).sum();
+    let relaxed = relaxed.with_charging_price(watch)?;
     let mut search = Search { relaxed, watch, best: None, done: 0.0, in_all };
     let mut before = None;
     for cut in cuts() {
@@ -113,6 +117,10 @@ pub(crate) fn search(
         if before.is_none() {
             break;
         }
+    }
+    for &levels in LEVELS[1..].iter().filter(|&&levels| levels <= step.levels) {
+        let Some((slices, prices)) = before.take() else { break };
+        before = search.refine(step, levels, slices, &prices)?;
     }
     if before.is_some() {
         watch.has_come(1.0);
@@ -174,6 +182,26 @@ impl Search<'_> {
         let Some(found) = found else { return Ok(None) };
         let prices = self.prove(cut, &day()?, cut.to_the_second, &found);
         Ok(prices.map(|prices| (slices, prices)))
+    }
+
+    /// Searches in the finest slices with more levels of charge, starting with the prices that were
+    /// found with fewer. Returns the prices to continue with, or `None` if the search is to end.
+    fn refine(
+        &mut self,
+        step: Step,
+        levels: u16,
+        slices: Slices,
+        prices: &Prices,
+    ) -> Result<Option<(Slices, Prices)>, Error> {
+        let charge = Charge { levels, ..self.relaxed.charge };
+        self.relaxed.charge = charge;
+        let cut = CUTS.iter().rev().find(|cut| step.minutes <= cut.step.minutes);
+        let Some(cut) = cut.filter(|_| charge.price > 0) else {
+            return Ok(Some((slices, prices.clone())));
+        };
+        let day = self.relaxed.day(cut.step)?;
+        let found = self.prove(cut, &day, cut.to_the_second, prices);
+        Ok(found.map(|prices| (slices, prices)))
     }
 
     /// Searches for prices on the coarse clock.

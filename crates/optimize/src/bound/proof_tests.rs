@@ -11,6 +11,7 @@ use vertifleet_sim::{Simulation, Trace};
 use vertifleet_testkit::{Size, any_extended_day};
 
 use super::certificate::Certificate;
+use super::charging_time::Charge;
 use super::money;
 use super::penalty::Penalty;
 use super::prices::Prices;
@@ -110,7 +111,7 @@ fn layer_of(day: &Scenario, expanded: &TimeExpandedDay, aircraft: AircraftIx) ->
 /// Plays a day by several rules, and checks each aircraft, and all of them together, against the
 /// proof.
 fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
-    let mut expanded = TimeExpandedDay::of(day, &[], step_s).expect("a small day");
+    let mut expanded = TimeExpandedDay::of(day, &[], step_s, Charge::IGNORED).expect("a small day");
     let delays = day.disturbances.takeoff_delays.as_ref();
     expanded.penalty = delays.map(|delays| any_penalty(&expanded, delays, mix));
     let prices = any_prices(&expanded, mix);
@@ -202,7 +203,7 @@ proptest! {
 
 /// The bound that arbitrary prices prove for a day, micro-dollars.
 fn proven(day: &Scenario, step_s: u32, mix: u64) -> (i128, Prices) {
-    let expanded = TimeExpandedDay::of(day, &[], step_s).expect("a small day");
+    let expanded = TimeExpandedDay::of(day, &[], step_s, Charge::IGNORED).expect("a small day");
     let prices = any_prices(&expanded, mix);
     let never = Stop::default();
     let micro_usd = Certificate::new(&expanded).evaluate(&expanded, &prices, &never);
@@ -234,7 +235,7 @@ proptest! {
     ) {
         let day = any_extended_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 6 });
         let (longer_proves, prices) = proven(&day, 900, mix);
-        let (longer, shorter) = (TimeExpandedDay::of(&day, &[], 900), TimeExpandedDay::of(&day, &[], 180));
+        let (longer, shorter) = (TimeExpandedDay::of(&day, &[], 900, Charge::IGNORED), TimeExpandedDay::of(&day, &[], 180, Charge::IGNORED));
         let (longer, shorter) = (longer.expect("a small day"), shorter.expect("a small day"));
         let mut same = Prices::first(&shorter);
         same.flight.clone_from(&prices.flight);

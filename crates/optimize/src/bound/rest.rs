@@ -6,6 +6,7 @@
 
 use vertifleet_core::{AircraftIx, Scenario, Stop, VertiportIx};
 
+use super::charging_time::Charge;
 use super::descent::{Bundle, Descent};
 use super::itinerary::Itinerary;
 use super::ladder::{CUTS, Cut, TICK_S};
@@ -58,7 +59,10 @@ impl Rest {
             if !allows(steps, descent.steps) {
                 break;
             }
-            let Ok(day) = TimeExpandedDay::of(scenario, &[], step.seconds()) else { break };
+            let Ok(day) = TimeExpandedDay::of(scenario, &[], step.seconds(), Charge::IGNORED)
+            else {
+                break;
+            };
             let day = day.on_coarse_clock(TICK_S);
             let slices = Slices::of(scenario, step.seconds());
             let start = match &found {
@@ -75,7 +79,7 @@ impl Rest {
                 return None;
             }
             let (prices, groups) = bundle.into_parts();
-            let group_of = day.group_of(scenario);
+            let group_of = day.group_of.clone();
             let aircraft_groups = day.layers.iter().map(|layer| layer.starts.len()).sum();
             found = Some(Self { day, slices, pace, prices, groups, group_of, aircraft_groups });
         }

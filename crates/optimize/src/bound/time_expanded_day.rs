@@ -7,9 +7,13 @@
 
 use std::collections::BTreeMap;
 
-use vertifleet_core::{ClosedTimes, Scenario, Time, TypeIx, Vertiport, VertiportIx};
-use vertifleet_sim::{Leg, Legs};
+use vertifleet_core::{
+    AircraftIx, Charging, ClosedTimes, Scenario, Time, TypeIx, Vertiport, VertiportIx,
+};
+use vertifleet_sim::{Leg, Legs, first_decision};
 
+use super::charge_levels::{ChargeLevels, Charged, Level};
+use super::charging_time::{Charge, ChargingTime};
 use super::market::{Market, Part, compact};
 use super::money;
 use super::penalty::Penalty;
@@ -26,6 +30,8 @@ const MOST_PLACES: usize = 100_000_000;
 pub(super) struct Flight {
     /// The vertiport that it flies to.
     pub(super) to: VertiportIx,
+    /// The level of charge at the next decision.
+    pub(super) level: Level,
     /// Seconds from the decision until the aircraft may decide again, its delay included.
     pub(super) block_s: u32,
     /// The position of its price in [`Prices::flight`](super::prices::Prices::flight).
@@ -34,14 +40,39 @@ pub(super) struct Flight {
     pub(super) cost: i64,
 }
 
+/// A flight between two vertiports that is decided at a level of charge.
+#[derive(Clone, Copy)]
+struct Hop<'a> {
+    layer: usize,
+    leg: &'a Leg,
+    pair: (VertiportIx, VertiportIx),
+    level: Level,
+}
+
+/// The charge of aircraft on a day that charges as needed.
+struct ChargingDay<'a> {
+    levels: ChargeLevels<'a>,
+    time: ChargingTime<'a>,
+}
+
+impl<'a> ChargingDay<'a> {
+    fn of(scenario: &'a Scenario, legs: &'a Legs, Charge { price, levels }: Charge) -> Self {
+        let levels = ChargeLevels::of(scenario, legs, levels);
+        Self { levels, time: ChargingTime::of(scenario, legs, price) }
+    }
+}
+
 /// The aircraft of one type, either those with outages or those without.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Layer {
     pub(super) kind: TypeIx,
     /// Whether its aircraft may wait for any time and not only for holds. An aircraft without
     /// outages that may wait for any time can do everything that an aircraft kept on the ground by
-    /// an outage does.
+    /// an outage does, and everything that one does that waits for charge.
     pub(super) waits_freely: bool,
+    /// Whether its aircraft have outages. While one is out of service it charges, for longer than
+    /// levels know of, so it is full at every decision.
+    has_outages: bool,
     /// Where and when its aircraft start, those alike together, by vertiport and time.
     pub(super) starts: Vec<Start>,
 }
@@ -51,8 +82,11 @@ pub(super) struct Layer {
 pub(super) struct Start {
     /// Position of the vertiport where they stand, and take a stand, from the start of the day on.
     pub(super) at: usize,
+    pub(super) level: Level,
     /// Seconds from the first take-off time until they are ready for their first decision.
     pub(super) ready_s: u32,
+    /// What each is given for its charging time, micro-dollars.
+    pub(super) gift: i64,
     /// Their number.
     pub(super) count: u32,
 }
@@ -63,6 +97,8 @@ pub(super) struct TimeExpandedDay {
     pub(super) slices: Slices,
     /// The types that have an aircraft in the fleet.
     pub(super) layers: Vec<Layer>,
+    /// The position of each aircraft's start among those of all layers.
+    pub(super) group_of: Vec<usize>,
     /// Number of stands that are left, by slice, then vertiport: U_max, unless aircraft have been
     /// planned.
     pub(super) stands: Vec<u32>,
@@ -76,23 +112,36 @@ pub(super) struct TimeExpandedDay {
     /// The shortest time from a take-off to the next one, or the duration of a hold if that is
     /// shorter; seconds, at least 1.
     pub(super) shortest_s: u32,
+    /// How the charge of aircraft is relaxed.
+    pub(super) charge: Charge,
+    /// By layer, vertiport, then level: the level after a hold.
+    holds: Vec<Level>,
     /// The payments of aircraft for knowing delays, for a bound without foresight.
     pub(super) penalty: Option<Penalty>,
     flights: Vec<Flight>,
-    /// Position in `flights` of the first flight from each vertiport, by slice, layer, vertiport.
+    /// Position in `flights` of the first flight from each place, by slice, layer, place.
     offsets: Vec<usize>,
 }
 
 impl TimeExpandedDay {
-    /// Lays out a day in slices of at most `step_s` seconds. Aircraft decide first when they are
-    /// `ready`; those past its end are ready from the start.
+    /// Lays out a day in slices of at most `step_s` seconds, with the charge of aircraft relaxed in
+    /// a way, which only matters on days that charge as needed. Aircraft decide first when they are
+    /// `ready`; those past its end when the day lets them.
     ///
     /// # Errors
     /// [`Error::TooManyFlights`].
-    pub(super) fn of(scenario: &Scenario, ready: &[Time], step_s: u32) -> Result<Self, Error> {
-        Self::fits(scenario, step_s)?;
+    pub(super) fn of(
+        scenario: &Scenario,
+        ready: &[Time],
+        step_s: u32,
+        charge: Charge,
+    ) -> Result<Self, Error> {
+        let as_needed = scenario.operations.charging == Charging::AsNeeded;
+        let charge = if as_needed { charge } else { Charge::IGNORED };
+        Self::fits(scenario, step_s, charge)?;
         let legs = Legs::of(scenario);
-        let layers = layers(scenario, ready);
+        let charging = as_needed.then(|| ChargingDay::of(scenario, &legs, charge));
+        let (layers, group_of) = layers(scenario, ready, charging.as_ref());
         let slices = Slices::of(scenario, step_s);
         let mut day = Self {
             stands: scenario.vertiports.iter().map(room).collect::<Vec<_>>().repeat(slices.len()),
@@ -101,13 +150,16 @@ impl TimeExpandedDay {
             fixed_cost: fixed_cost(scenario),
             hold_s: scenario.operations.hold_s,
             shortest_s: scenario.operations.hold_s,
+            charge,
+            holds: holds(charging.as_ref(), &layers, scenario.vertiports.len()),
             penalty: None,
             flights: Vec::new(),
             offsets: vec![0],
             slices,
             layers,
+            group_of,
         };
-        day.add_flights(scenario, &legs);
+        day.add_flights(scenario, &legs, charging.as_ref());
         day.market.find_choosing_blocks();
         Ok(day)
     }
@@ -116,12 +168,13 @@ impl TimeExpandedDay {
     ///
     /// # Errors
     /// [`Error::TooManyFlights`] if the day is too large.
-    pub(super) fn fits(scenario: &Scenario, step_s: u32) -> Result<(), Error> {
-        let layers = layers(scenario, &[]);
+    pub(super) fn fits(scenario: &Scenario, step_s: u32, charge: Charge) -> Result<(), Error> {
+        let (layers, _) = layers(scenario, &[], None);
         let slices = Slices::of(scenario, step_s);
         let size = scenario.vertiports.len();
-        let flights = slices.len() * pairs(&Legs::of(scenario), &layers, size);
-        let places = layers.len() * size * slices.day_s() as usize;
+        let levels = usize::from(charge.levels);
+        let flights = slices.len() * pairs(&Legs::of(scenario), &layers, size) * levels;
+        let places = layers.len() * size * levels * slices.day_s() as usize;
         if flights <= MOST_FLIGHTS && places <= MOST_PLACES {
             return Ok(());
         }
@@ -152,7 +205,12 @@ impl TimeExpandedDay {
         self
     }
 
-    fn add_flights(&mut self, scenario: &Scenario, legs: &Legs) {
+    fn add_flights(
+        &mut self,
+        scenario: &Scenario,
+        legs: &Legs,
+        charging: Option<&ChargingDay<'_>>,
+    ) {
         let size = self.size();
         let closed = ClosedTimes::of(&scenario.disturbances.closures, size);
         for slice in 0..self.slices.len() {
@@ -161,66 +219,77 @@ impl TimeExpandedDay {
             let [first, last] = [times_s.0, times_s.1].map(Time::from_seconds);
             for layer in 0..self.layers.len() {
                 let kind = self.layers[layer].kind;
-                let seats = scenario.aircraft_types[kind.at()].seats;
                 for from in VertiportIx::all(size) {
-                    for to in legs.within_range(kind, from).iter() {
-                        if !closed.is_closed_throughout(from, to, first, last) {
-                            let leg = *legs.leg(kind, from, to);
-                            self.add_flight(scenario, (slice, first_cell), leg, (from, to), seats);
+                    let open = legs.within_range(kind, from);
+                    let is_open =
+                        |to: &VertiportIx| !closed.is_closed_throughout(from, *to, first, last);
+                    for level in (0..).take(self.charge.levels.into()) {
+                        for to in open.iter().filter(is_open) {
+                            let cell = first_cell + from.at() * size + to.at();
+                            let leg = legs.leg(kind, from, to);
+                            let hop = Hop { layer, leg, pair: (from, to), level };
+                            self.add_flight(scenario, (slice, cell), hop, charging);
                         }
+                        self.offsets.push(self.flights.len());
                     }
-                    self.offsets.push(self.flights.len());
                 }
             }
         }
     }
 
-    /// Adds a flight of a slice. The cells of the slice's demand period begin with `first_cell`.
+    /// Adds a flight of a slice and a cell of the demand. One that waits for charge past the end of
+    /// operations is left out.
     fn add_flight(
         &mut self,
         scenario: &Scenario,
-        (slice, first_cell): (usize, usize),
-        leg: Leg,
-        (from, to): (VertiportIx, VertiportIx),
-        seats: u16,
+        (slice, cell): (usize, usize),
+        hop: Hop<'_>,
+        charging: Option<&ChargingDay<'_>>,
     ) {
-        let size = self.size();
-        let first_s = self.slices.start_s(slice);
+        let Hop { layer, leg, pair: (from, to), level } = hop;
+        let Layer { kind, has_outages, .. } = self.layers[layer];
+        let seats = scenario.aircraft_types[kind.at()].seats;
+        let (first_s, last_s) = (self.slices.start_s(slice), self.slices.last_s(slice));
         let late_s = delay_s(scenario, from, first_s);
+        let (mut charged, mut takeoff_s, mut pays) = (Charged { wait_s: 0, level: 0 }, last_s, 0);
+        if let Some(ChargingDay { levels, time }) = charging {
+            let end_s = scenario.operations.end.seconds();
+            charged = levels.flight(kind, (from, to), level, late_s);
+            if has_outages {
+                charged.level = levels.full();
+            }
+            if first_s + charged.wait_s > end_s {
+                return;
+            }
+            // An aircraft with less charge than its level waits for longer.
+            let longest_s = time.longest_wait_s(kind, (from, to));
+            takeoff_s = last_s.max(end_s.min(last_s + longest_s));
+            pays = time.payment(kind, leg, takeoff_s + late_s);
+        }
         let flight_s = leg.flight_s + late_s;
-        let arrivals_s = (first_s + flight_s, self.slices.last_s(slice) + flight_s);
+        let arrivals_s = (first_s + charged.wait_s + flight_s, takeoff_s + flight_s);
         let price_usd = lowest_energy_price_usd(scenario, arrivals_s);
         let cost_usd = leg.energy_kwh * price_usd + scenario.flight_cost_usd[(from, to)];
         let part = if self.slices.wait(slice) { Part::Early } else { Part::Late };
-        let cell = first_cell + from.at() * size + to.at();
         let sold_at = self.market.position(cell, part, seats);
         self.market.offer(sold_at);
         self.flights.push(Flight {
             to,
-            block_s: leg.block_s() + late_s,
+            level: charged.level,
+            block_s: charged.wait_s + leg.block_s() + late_s,
             sold_at: compact(sold_at),
-            cost: money::down(cost_usd),
+            cost: money::down(cost_usd) + pays,
         });
         self.shortest_s = self.shortest_s.min(leg.block_s());
     }
 
-    /// The position of each aircraft's start among those of all layers.
-    pub(super) fn group_of(&self, scenario: &Scenario) -> Vec<usize> {
-        let starts: Vec<(TypeIx, bool, usize)> = self
-            .layers
-            .iter()
-            .flat_map(|layer| {
-                let Layer { kind, waits_freely, starts } = layer;
-                starts.iter().map(move |start| (*kind, *waits_freely, start.at))
-            })
-            .collect();
-        let has_outage = has_outage(scenario);
-        let fleet = scenario.aircraft.iter().zip(has_outage);
-        let group = fleet.map(|(aircraft, has_outage)| {
-            let own = (aircraft.kind, has_outage, aircraft.at.at());
-            starts.iter().position(|&start| start == own).expect("each aircraft has a group")
-        });
-        group.collect()
+    /// A price of a second of charging, micro-dollars, at which no flight earns anything.
+    pub(super) fn dearest_second(&self) -> f64 {
+        let earns = |flight: &Flight| {
+            let usd = self.market.most(flight.sold_at as usize) - flight.cost;
+            usd as f64 / f64::from(flight.block_s.max(1))
+        };
+        self.flights.iter().map(earns).fold(0.0, f64::max)
     }
 
     /// Number of vertiports.
@@ -228,11 +297,54 @@ impl TimeExpandedDay {
         self.vertiports
     }
 
-    /// The flights that aircraft of a layer may begin at a vertiport in a slice.
-    pub(super) fn flights(&self, slice: usize, layer: usize, from: usize) -> &[Flight] {
-        let at = (slice * self.layers.len() + layer) * self.size() + from;
+    /// Number of places: vertiports, each with every level of charge.
+    pub(super) fn places(&self) -> usize {
+        self.vertiports * usize::from(self.charge.levels)
+    }
+
+    /// The place of aircraft at a vertiport with a level of charge.
+    #[inline]
+    pub(super) fn place(&self, at: usize, level: Level) -> usize {
+        at * usize::from(self.charge.levels) + usize::from(level)
+    }
+
+    /// The vertiport of a place.
+    #[inline]
+    pub(super) fn vertiport(&self, place: usize) -> usize {
+        place / usize::from(self.charge.levels)
+    }
+
+    /// The highest level of charge.
+    pub(super) fn full(&self) -> Level {
+        self.charge.levels - 1
+    }
+
+    /// The place of an aircraft of a layer after a hold.
+    #[inline]
+    pub(super) fn held(&self, layer: usize, place: usize) -> usize {
+        if self.holds.is_empty() {
+            return place;
+        }
+        self.place(self.vertiport(place), self.holds[layer * self.places() + place])
+    }
+
+    /// The flights that aircraft of a layer may begin at a place in a slice.
+    pub(super) fn flights(&self, slice: usize, layer: usize, place: usize) -> &[Flight] {
+        let at = (slice * self.layers.len() + layer) * self.places() + place;
         &self.flights[self.offsets[at]..self.offsets[at + 1]]
     }
+}
+
+/// The level of each place after a hold, by layer; empty on a day that charges to full.
+fn holds(charging: Option<&ChargingDay<'_>>, layers: &[Layer], size: usize) -> Vec<Level> {
+    let Some(ChargingDay { levels, .. }) = charging else { return Vec::new() };
+    let of_layer = |layer: &Layer| {
+        let kind = layer.kind;
+        let of_vertiport =
+            move |at| (0..).take(levels.count).map(move |level| levels.hold(kind, at, level));
+        VertiportIx::all(size).flat_map(of_vertiport).collect::<Vec<Level>>()
+    };
+    layers.iter().flat_map(of_layer).collect()
 }
 
 /// Number of aircraft that may be at a vertiport or on their way to it. Where chargers are counted
@@ -242,28 +354,51 @@ fn room(vertiport: &Vertiport) -> u32 {
 }
 
 /// The layers of the fleet, by aircraft type in file order; of each type, the aircraft without
-/// outages come first.
-fn layers(scenario: &Scenario, ready: &[Time]) -> Vec<Layer> {
+/// outages come first. Also the position of each aircraft's start among those of all layers.
+fn layers(
+    scenario: &Scenario,
+    ready: &[Time],
+    charging: Option<&ChargingDay<'_>>,
+) -> (Vec<Layer>, Vec<usize>) {
     let has_outage = has_outage(scenario);
-    let mut layers = Vec::new();
+    // An aircraft that waits for charge decides at other times than on its way without the wait.
+    let all_wait = scenario.operations.charging == Charging::AsNeeded;
+    let start_of = |position: usize| {
+        let aircraft = &scenario.aircraft[position];
+        let first = || first_decision(scenario, AircraftIx::new(position));
+        let ready = ready.get(position).copied().unwrap_or_else(first);
+        let ready_s = ready.since(scenario.operations.start);
+        let (kind, charge_kwh) = (aircraft.kind, aircraft.start_charge_kwh);
+        let level = charging.map_or(0, |day| day.levels.at_start(kind, charge_kwh));
+        let gift = charging.map_or(0, |day| day.time.gift(kind, charge_kwh));
+        (aircraft.at.at(), level, ready_s, gift)
+    };
+    let (mut layers, mut group_of) = (Vec::new(), vec![0; scenario.aircraft.len()]);
+    let mut groups = 0;
     for kind in TypeIx::all(scenario.aircraft_types.len()) {
-        for waits_freely in [false, true] {
-            let mut alike: BTreeMap<(usize, u32), u32> = BTreeMap::new();
+        for has_outages in [false, true] {
+            let mut alike: BTreeMap<(usize, Level, u32, i64), Vec<usize>> = BTreeMap::new();
             for (position, aircraft) in scenario.aircraft.iter().enumerate() {
-                if aircraft.kind == kind && has_outage[position] == waits_freely {
-                    let ready = ready.get(position);
-                    let ready_s = ready.map_or(0, |ready| ready.since(scenario.operations.start));
-                    *alike.entry((aircraft.at.at(), ready_s)).or_default() += 1;
+                if aircraft.kind == kind && has_outage[position] == has_outages {
+                    alike.entry(start_of(position)).or_default().push(position);
                 }
             }
-            let start = |((at, ready_s), count)| Start { at, ready_s, count };
-            let starts: Vec<Start> = alike.into_iter().map(start).collect();
+            let mut starts = Vec::with_capacity(alike.len());
+            for ((at, level, ready_s, gift), positions) in alike {
+                let count = u32::try_from(positions.len()).expect("at most 10,000 aircraft");
+                starts.push(Start { at, level, ready_s, gift, count });
+                for position in positions {
+                    group_of[position] = groups;
+                }
+                groups += 1;
+            }
             if !starts.is_empty() {
-                layers.push(Layer { kind, waits_freely, starts });
+                let waits_freely = has_outages || all_wait;
+                layers.push(Layer { kind, waits_freely, has_outages, starts });
             }
         }
     }
-    layers
+    (layers, group_of)
 }
 
 /// Whether each aircraft has an outage.

@@ -7,6 +7,7 @@
 use vertifleet_core::{Network, Scenario, Stop, TakeoffDelays};
 
 use super::certificate::Certificate;
+use super::charging_time::Charge;
 use super::ladder::{Relaxed, search};
 use super::penalty::Penalty;
 use super::penalty::worths::Expected;
@@ -54,7 +55,7 @@ pub(super) fn bound_with_penalty(
 ) -> Result<Option<Bound>, Error> {
     let expected = expected_day(scenario, delays, probabilities);
     let Some(bound) = upper_bound_unless(stopped, &expected, step)? else { return Ok(None) };
-    let day = TimeExpandedDay::of(&expected, &[], bound.step_s())?;
+    let day = TimeExpandedDay::of(&expected, &[], bound.step_s(), Charge::IGNORED)?;
     let mut certificate = Certificate::new(&day);
     if certificate.evaluate(&day, &bound.prices, stopped).is_none() {
         return Ok(None);
@@ -62,7 +63,7 @@ pub(super) fn bound_with_penalty(
     let (prices, certificate) = (&bound.prices, &certificate);
     let expected = Expected { scenario: &expected, day: &day, prices, certificate };
     let penalty = Penalty::of(delays, probabilities, &expected);
-    let relaxed = Relaxed { scenario, ready: &[], penalty: Some(&penalty) };
+    let relaxed = Relaxed { penalty: Some(&penalty), ..Relaxed::known(scenario, &[]) };
     let bound = search(relaxed, step, &Unless { stopped })?;
     Ok(bound.filter(|_| !stopped.is_requested()))
 }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 use vertifleet_core::{
-    Aircraft, AircraftType, Day, Disturbances, Matrix, Operations, Scenario, Stop, TakeoffDelays,
-    Time, TypeIx, Vertiport, VertiportIx,
+    Aircraft, AircraftType, Charging, Day, Disturbances, Matrix, Operations, Scenario, Stop,
+    TakeoffDelays, Time, TypeIx, Vertiport, VertiportIx,
 };
 use vertifleet_sim::Simulation;
 use vertifleet_testkit::{Size, any_extended_day};
@@ -188,6 +188,7 @@ fn world_of_a_coin() -> World {
         y_mi: 0.0,
         stands: 2,
         chargers: None,
+        charger_kw: None,
         busy: false,
         degrees: None,
         stand_cost_usd: 0.0,
@@ -208,6 +209,7 @@ fn world_of_a_coin() -> World {
             landing_s: 300,
             hold_s: 1_800,
             passenger_wait_s: 0,
+            charging: Charging::ToFull,
         },
         vertiports: ["V0", "V1", "V2"].map(vertiport).into(),
         aircraft_types: vec![AircraftType {
@@ -218,8 +220,16 @@ fn world_of_a_coin() -> World {
             energy_kwh_per_mi: 1e-6,
             charge_kw: 100.0,
             self_discharge_per_h: 0.0,
+            reserve_kwh: 0.0,
+            turnaround_s: 0,
+            charge_curve: None,
         }],
-        aircraft: vec![Aircraft { id: "A".to_owned(), kind: TypeIx(0), at: VertiportIx(0) }],
+        aircraft: vec![Aircraft {
+            id: "A".to_owned(),
+            kind: TypeIx(0),
+            at: VertiportIx(0),
+            start_charge_kwh: None,
+        }],
         distance_mi: Matrix::from_fn(3, |from, to| if from == to { 0.0 } else { 20.0 }),
         corridors: None,
         fare_usd: between(10.0).into(),

@@ -21,6 +21,8 @@ pub(super) struct Stay {
     pub(super) comes: Moment,
     /// The second of its first decision here.
     pub(super) ready_s: u32,
+    /// The second from which a hold may move it to a stand, because its battery is full.
+    pub(super) full_s: u32,
     pub(super) leaves: Moment,
 }
 
@@ -130,7 +132,8 @@ fn events(day: &Day, stays: &[Stay]) -> Vec<(Moment, usize, Event)> {
             events.push((stay.comes, number, Event::Comes));
         }
         let decisions_s = (stay.ready_s..=day.end_s).step_by(day.hold_s as usize);
-        let holds = decisions_s.map(|time_s| Moment::of(time_s, stay.aircraft));
+        let holds = decisions_s.filter(|&time_s| time_s >= stay.full_s);
+        let holds = holds.map(|time_s| Moment::of(time_s, stay.aircraft));
         let holds = holds.take_while(|&moment| moment < stay.leaves);
         events.extend(holds.map(|moment| (moment, number, Event::Holds)));
         if stay.leaves < Moment::NEVER {

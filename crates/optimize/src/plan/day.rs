@@ -4,8 +4,9 @@
 use vertifleet_core::{AircraftIx, Scenario, TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
+use super::batteries::Batteries;
 use super::foresight::Foresight;
-use super::hop::{Hop, Landing};
+use super::hop::{Hop, Landed, Landing};
 
 /// The numbers of a day, by aircraft type and vertiport.
 #[derive(Debug)]
@@ -36,6 +37,10 @@ pub(super) struct Day {
     /// Fare less passenger cost by period, from, to; dollars a passenger.
     margins_usd: Vec<f64>,
     foresight: Option<Foresight>,
+    /// Only on a day that charges as needed.
+    pub(super) batteries: Option<Batteries>,
+    /// The second at which each aircraft decides first.
+    first_ready_s: Vec<u32>,
 }
 
 impl Day {
@@ -77,11 +82,13 @@ impl Day {
                 .iter()
                 .map(|one| one.chargers.map(|_| one.stands))
                 .collect(),
-            kind_of: fleet.map(|aircraft| view.kind(aircraft)).collect(),
+            kind_of: fleet.clone().map(|aircraft| view.kind(aircraft)).collect(),
             seats: types.iter().map(|kind| kind.seats).collect(),
             hops,
             margins_usd: margins_usd(view),
             foresight,
+            batteries: Batteries::of(scenario),
+            first_ready_s: fleet.map(|aircraft| view.ready_at(aircraft).seconds()).collect(),
         }
     }
 
@@ -134,20 +141,52 @@ impl Day {
         blocks_s.fold(self.hold_s, u32::min)
     }
 
-    /// The end of a flight that an aircraft begins at a vertiport at a second.
+    /// The aircraft at the start of the day, as if it had landed then.
+    pub(super) fn start(&self, aircraft: AircraftIx) -> Landing {
+        let batteries = self.batteries.as_ref();
+        let charge_mwh = batteries.map_or(0, |batteries| batteries.start_mwh(aircraft));
+        let landed = Landed { arrival_s: self.first_s, charge_mwh };
+        Landing { ready_s: self.first_ready_s[aircraft.at()], landed }
+    }
+
+    /// The end of a flight that an aircraft decides at a vertiport at a second, where it has
+    /// landed; `None` if its charge suffices only after the end of operations.
     #[inline]
     pub(super) fn landing(
         &self,
         aircraft: AircraftIx,
         from: VertiportIx,
         hop: &Hop,
-        take_off_s: u32,
-    ) -> Landing {
+        decided_s: u32,
+        landed: Landed,
+    ) -> Option<Landing> {
+        let Some(batteries) = &self.batteries else {
+            let (arrival_s, ready_s) = self.landing_s(aircraft, from, hop, (decided_s, decided_s));
+            return Some(Landing { ready_s, landed: Landed { arrival_s, charge_mwh: 0 } });
+        };
+        let kind = self.kind(aircraft);
+        let takeoff_s = batteries.takeoff_s(kind, from, hop, landed, decided_s);
+        if takeoff_s > self.end_s {
+            return None;
+        }
+        let (arrival_s, ready_s) = self.landing_s(aircraft, from, hop, (decided_s, takeoff_s));
+        let left_s = arrival_s - hop.flight_s;
+        let charge_mwh = batteries.lands_with_mwh(kind, from, hop, landed, left_s);
+        Some(Landing { ready_s, landed: Landed { arrival_s, charge_mwh } })
+    }
+
+    /// When a flight lands and its aircraft is ready again.
+    #[inline]
+    fn landing_s(
+        &self,
+        aircraft: AircraftIx,
+        from: VertiportIx,
+        hop: &Hop,
+        (decided_s, takeoff_s): (u32, u32),
+    ) -> (u32, u32) {
         match &self.foresight {
-            None => {
-                Landing { arrival_s: take_off_s + hop.flight_s, ready_s: take_off_s + hop.block_s }
-            }
-            Some(foresight) => foresight.landing(aircraft, from, hop, take_off_s),
+            None => (takeoff_s + hop.flight_s, takeoff_s + hop.block_s),
+            Some(foresight) => foresight.landing_s(aircraft, from, hop, (decided_s, takeoff_s)),
         }
     }
 

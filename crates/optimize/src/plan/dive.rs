@@ -137,11 +137,13 @@ fn plan_one_by_one(
         rest,
         bias: Bias { rent_share: share, flight_share: share, ..Bias::default() },
         schedule: Schedule::unplanned(problem),
-        left: problem.day.fleet().collect(),
+        left: Vec::new(),
         planned: Vec::new(),
         search: ItinerarySearch::thorough(),
         flights: Vec::new(),
     };
+    let schedule = &diver.schedule;
+    diver.left = problem.day.fleet().filter(|&aircraft| !schedule.is_whole(aircraft)).collect();
     let mut may_take_back = diver.left.len();
     let mut tempo = Tempo::until(until);
     while let Some(aircraft) = diver.rest.clearest(diver.left.iter().copied()) {

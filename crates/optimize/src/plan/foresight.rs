@@ -6,7 +6,7 @@
 
 use vertifleet_core::{AircraftIx, ClosedTimes, Disturbances, Scenario, Time, VertiportIx};
 
-use super::hop::{Hop, Landing};
+use super::hop::Hop;
 
 /// The disturbances of a day, all of them known.
 #[derive(Debug)]
@@ -25,26 +25,26 @@ impl Foresight {
         (!disturbances.is_none()).then_some(Self { start, disturbances, closed })
     }
 
-    /// The landing of a flight of an aircraft from a vertiport, and the time at which the aircraft
-    /// is ready again.
-    pub(super) fn landing(
+    /// The landing of a flight of an aircraft from a vertiport that is decided at a second and may
+    /// take off at another, and the second at which the aircraft is ready again.
+    pub(super) fn landing_s(
         &self,
         aircraft: AircraftIx,
         from: VertiportIx,
         hop: &Hop,
-        take_off_s: u32,
-    ) -> Landing {
+        (decided_s, takeoff_s): (u32, u32),
+    ) -> (u32, u32) {
         let delays = self.disturbances.takeoff_delays.as_ref();
-        let take_off = Time::from_seconds(take_off_s);
-        let late_s = delays.map_or(0, |delays| delays.at(self.start, take_off, from));
-        let arrival_s = take_off_s + late_s + hop.flight_s;
-        let charged_s = take_off_s + late_s + hop.block_s;
+        let decided = Time::from_seconds(decided_s);
+        let late_s = delays.map_or(0, |delays| delays.at(self.start, decided, from));
+        let arrival_s = takeoff_s + late_s + hop.flight_s;
+        let charged_s = takeoff_s + late_s + hop.block_s;
         let own = self.disturbances.outages.iter().filter(|outage| {
             outage.aircraft == aircraft
                 && (outage.start.seconds()..outage.end.seconds()).contains(&arrival_s)
         });
         let ready_s = own.map(|outage| outage.end.seconds()).fold(charged_s, u32::max);
-        Landing { arrival_s, ready_s }
+        (arrival_s, ready_s)
     }
 
     /// Whether a route is closed at a time.

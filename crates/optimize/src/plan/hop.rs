@@ -6,9 +6,9 @@ use vertifleet_core::VertiportIx;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hop {
     pub(super) to: VertiportIx,
-    /// Seconds from take-off to arrival.
+    /// Seconds from leaving the stand to arrival.
     pub(super) flight_s: u32,
-    /// Seconds from take-off until the aircraft is ready again.
+    /// Seconds from leaving the stand until the aircraft is ready again.
     pub(super) block_s: u32,
     pub(super) energy_kwh: f64,
     /// Cost of the flight, without its energy, dollars.
@@ -16,10 +16,18 @@ pub(super) struct Hop {
 }
 
 /// The end of a flight.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Landing {
-    /// Second of the landing.
-    pub(super) arrival_s: u32,
     /// Second at which the aircraft decides again.
     pub(super) ready_s: u32,
+    pub(super) landed: Landed,
+}
+
+/// When an aircraft landed, and with which charge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Landed {
+    /// Second of the landing, or of the start of operations.
+    pub(super) arrival_s: u32,
+    /// Milliwatt-hours; 0 on days that charge to full.
+    pub(super) charge_mwh: u64,
 }

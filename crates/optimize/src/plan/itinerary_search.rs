@@ -3,15 +3,15 @@
 //! This is a longest path over labels (vertiport, second at which the aircraft is ready). From each
 //! label the aircraft flies to any vertiport that has a stand for it from take-off until it is
 //! ready again, or holds. Labels are settled forwards in time. Of the labels of one vertiport
-//! within one slot of time only the best is kept, which bounds the work. Each is exact to the
-//! second, so the result is feasible, except at vertiports with chargers and waiting stands
-//! (`chargers.rs`).
+//! within one slot of time only the best is kept, which bounds the work; on days that charge as
+//! needed, the best with each part of a full battery. Each is exact to the second, so the result is
+//! feasible, except at vertiports with chargers and waiting stands (`chargers.rs`).
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
 
 use super::day::Day;
 use super::guiding_prices::GuidingPrices;
-use super::hop::Hop;
+use super::hop::{Hop, Landed, Landing};
 use super::passengers::Departure;
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
@@ -52,6 +52,8 @@ struct Label {
     before: u32,
 }
 
+/// Parts of a full battery, of each of which the best label is kept on days that charge as needed.
+const PARTS: usize = 8;
 /// In place of the label before the first one.
 const NONE: u32 = u32::MAX;
 const UNREACHED: Label = Label { value_usd: f64::NEG_INFINITY, ready_s: 0, before: NONE };
@@ -71,8 +73,12 @@ pub(super) struct ItinerarySearch {
     /// The length of a slot, in which only the best label of a vertiport is kept, is 2 to this
     /// power in seconds. No flight and no hold is shorter, so every label leads to a later slot.
     slot_bits: u32,
-    /// The best label by slot, then vertiport.
+    /// The best label by slot, vertiport, then part of a full battery.
     labels: Vec<Label>,
+    /// The number of parts of a full battery: 1 on days that charge to full.
+    parts: usize,
+    /// The landing before each label. Empty on days that charge to full.
+    landed: Vec<Landed>,
     /// The windows in which each vertiport has a stand for one more aircraft, vertiport by
     /// vertiport. Each list ends with a window that never opens.
     windows: Vec<Window>,
@@ -123,6 +129,7 @@ struct Choice {
     label: u32,
     place: VertiportIx,
     time_s: u32,
+    landed: Landed,
     moment: Moment,
     value_usd: f64,
     /// The demand period of the decision.
@@ -139,6 +146,8 @@ struct Place {
     window: Window,
     /// Whether it is on a waiting stand.
     has_stand: bool,
+    /// Its latest landing there.
+    landed: Landed,
 }
 
 impl ItinerarySearch {
@@ -176,7 +185,7 @@ impl ItinerarySearch {
         debug_assert!(!schedule.is_whole(aircraft), "a whole itinerary is complete");
         flights.clear();
         let day = &problem.day;
-        let (place, ready_s) = schedule.open_end(day, aircraft);
+        let (place, Landing { ready_s, landed }) = schedule.open_end(aircraft);
         let task = Task {
             problem,
             schedule,
@@ -189,10 +198,11 @@ impl ItinerarySearch {
         };
         self.prepare(&task);
         let has_stand = schedule.flights(aircraft).is_empty();
-        self.enter(&task, place, Label { value_usd: 0.0, ready_s, before: NONE }, has_stand);
+        let place = Place { at: place, window: Window::ALWAYS, has_stand, landed };
+        self.enter(&task, &place, Label { value_usd: 0.0, ready_s, before: NONE });
         self.settle(&task);
         let Some(finish) = self.best else { return false };
-        self.read_back(day.vertiports, &finish, flights);
+        self.read_back(&task, &finish, flights);
         true
     }
 
@@ -212,7 +222,10 @@ impl ItinerarySearch {
         self.offers_usd.resize(self.has_offers.len() * pairs, 0.0);
         let slots = ((day.end_s - task.origin_s) >> self.slot_bits) + 1;
         self.labels.clear();
-        self.labels.resize(slots as usize * day.vertiports, UNREACHED);
+        self.parts = if day.batteries.is_some() { PARTS } else { 1 };
+        self.labels.resize(slots as usize * day.vertiports * self.parts, UNREACHED);
+        let charged = if day.batteries.is_some() { self.labels.len() } else { 0 };
+        self.landed.resize(charged, Landed::default());
         self.has_stand.clear();
         if let Some(waiting) = &task.schedule.waiting_stands {
             self.has_stand.resize(self.labels.len(), false);
@@ -227,13 +240,22 @@ impl ItinerarySearch {
     }
 
     #[inline]
-    fn enter(&mut self, task: &Task<'_>, place: VertiportIx, label: Label, has_stand: bool) {
+    fn enter(&mut self, task: &Task<'_>, place: &Place, label: Label) {
+        let day = &task.problem.day;
         let slot = ((label.ready_s - task.origin_s) >> self.slot_bits) as usize;
-        let at = slot * task.problem.day.vertiports + place.at();
+        let mut at = slot * day.vertiports + place.at.at();
+        if let Some(batteries) = &day.batteries {
+            let (kind, landed) = (task.kind, place.landed);
+            let charge_mwh = batteries.charge_mwh(kind, place.at, landed, label.ready_s);
+            at = at * self.parts + batteries.part(kind, charge_mwh, self.parts);
+        }
         if label.value_usd > self.labels[at].value_usd {
             self.labels[at] = label;
             if let Some(of_label) = self.has_stand.get_mut(at) {
-                *of_label = has_stand;
+                *of_label = place.has_stand;
+            }
+            if let Some(of_label) = self.landed.get_mut(at) {
+                *of_label = place.landed;
             }
         }
     }
@@ -242,15 +264,15 @@ impl ItinerarySearch {
         let day = &task.problem.day;
         let mut slot_s = task.origin_s;
         let mut slot_period = 0;
-        for first in (0..self.labels.len()).step_by(day.vertiports) {
+        for first in (0..self.labels.len()).step_by(day.vertiports * self.parts) {
             slot_period = day.period_from(slot_period, slot_s);
             for current in &mut self.current {
                 while self.windows[*current].closes <= Moment::of(slot_s, AircraftIx(0)) {
                     *current += 1;
                 }
             }
-            for place in VertiportIx::all(day.vertiports) {
-                let at = first + place.at();
+            for cell in 0..day.vertiports * self.parts {
+                let at = first + cell;
                 let Label { value_usd, ready_s: time_s, .. } = self.labels[at];
                 if value_usd == f64::NEG_INFINITY {
                     continue;
@@ -259,8 +281,9 @@ impl ItinerarySearch {
                     task,
                     &Choice {
                         label: u32::try_from(at).expect("a day has fewer than 2^32 labels"),
-                        place,
+                        place: VertiportIx::new(cell / self.parts),
                         time_s,
+                        landed: self.landed.get(at).copied().unwrap_or_default(),
                         moment: Moment::of(time_s, task.aircraft),
                         value_usd,
                         period: day.period_from(slot_period, time_s),
@@ -319,7 +342,7 @@ impl ItinerarySearch {
             if has_stand { Some(Window::ALWAYS) } else { self.window(choice.place, choice.moment) };
         let Some(window) = window else { return };
         let ready_s = choice.time_s + task.problem.day.hold_s;
-        let place = Place { at: choice.place, window, has_stand };
+        let place = Place { at: choice.place, window, has_stand, landed: choice.landed };
         self.reach(task, choice, place, ready_s, 0.0);
     }
 
@@ -327,13 +350,17 @@ impl ItinerarySearch {
     /// free.
     #[inline]
     fn has_waiting_stand(&self, task: &Task<'_>, choice: &Choice) -> bool {
-        if task.problem.day.waiting_stands(choice.place).is_none() {
+        let day = &task.problem.day;
+        if day.waiting_stands(choice.place).is_none() {
             return false;
         }
         let windows = &self.waiting_stands[choice.place.at()];
         let at = windows.partition_point(|window| window.closes <= choice.moment);
+        let may_move = day.batteries.as_ref().is_none_or(|batteries| {
+            batteries.full_s(task.kind, choice.place, choice.landed) <= choice.time_s
+        });
         self.has_stand[choice.label as usize]
-            || windows.get(at).is_some_and(|window| window.opens <= choice.moment)
+            || may_move && windows.get(at).is_some_and(|window| window.opens <= choice.moment)
     }
 
     #[inline]
@@ -343,10 +370,11 @@ impl ItinerarySearch {
         if day.is_closed(choice.place, hop.to, choice.time_s) {
             return;
         }
-        let landing = day.landing(task.aircraft, choice.place, hop, choice.time_s);
-        let energy_usd = day.energy_cost_usd(hop, choice.period, landing.arrival_s);
-        let place = Place { at: hop.to, window, has_stand: false };
-        self.reach(task, choice, place, landing.ready_s, self.offers_usd[offer] - energy_usd);
+        let landing = day.landing(task.aircraft, choice.place, hop, choice.time_s, choice.landed);
+        let Some(Landing { ready_s, landed }) = landing else { return };
+        let energy_usd = day.energy_cost_usd(hop, choice.period, landed.arrival_s);
+        let place = Place { at: hop.to, window, has_stand: false, landed };
+        self.reach(task, choice, place, ready_s, self.offers_usd[offer] - energy_usd);
     }
 
     /// The window of a vertiport that contains a moment, which must not be before the slot that is
@@ -368,17 +396,17 @@ impl ItinerarySearch {
         &mut self,
         task: &Task<'_>,
         choice: &Choice,
-        Place { at, window, has_stand }: Place,
+        place: Place,
         ready_s: u32,
         profit_usd: f64,
     ) {
-        let (day, prices) = (&task.problem.day, task.prices);
+        let (day, prices, Place { at, window, .. }) = (&task.problem.day, task.prices, place);
         let rent_usd = prices.rent_usd(at, choice.minute, prices.minute(ready_s));
         let value_usd = choice.value_usd + profit_usd - task.bias.rent_share * rent_usd;
         if ready_s <= day.end_s {
             if Moment::of(ready_s, task.aircraft) < window.closes {
                 let label = Label { value_usd, ready_s, before: choice.label };
-                self.enter(task, at, label, has_stand);
+                self.enter(task, &place, label);
             }
         } else if window.closes == Moment::NEVER
             && self.best.is_none_or(|best| value_usd > best.value_usd)
@@ -388,21 +416,23 @@ impl ItinerarySearch {
         }
     }
 
-    fn read_back(&self, vertiports: usize, finish: &Finish, flights: &mut Vec<Flight>) {
-        let place = |label: u32| VertiportIx::new(label as usize % vertiports);
-        let take_off_s = |label: u32| self.labels[label as usize].ready_s;
+    fn read_back(&self, task: &Task<'_>, finish: &Finish, flights: &mut Vec<Flight>) {
+        let day = &task.problem.day;
+        let place = |label: u32| VertiportIx::new(label as usize / self.parts % day.vertiports);
+        let flight = |label: u32, to: VertiportIx| {
+            let (from, take_off_s) = (place(label), self.labels[label as usize].ready_s);
+            let landed = self.landed.get(label as usize).copied().unwrap_or_default();
+            let hop = day.hop(task.kind, from, to);
+            let landing = day.landing(task.aircraft, from, hop, take_off_s, landed);
+            let landing = landing.expect("it has been found to take off in time");
+            Flight { take_off_s, from, to, landing }
+        };
         let mut at = finish.label;
-        flights.extend(finish.last_to.map(|to| Flight {
-            take_off_s: take_off_s(at),
-            from: place(at),
-            to,
-        }));
+        flights.extend(finish.last_to.map(|to| flight(at, to)));
         while self.labels[at as usize].before != NONE {
             let before = self.labels[at as usize].before;
             if place(before) != place(at) {
-                let flight =
-                    Flight { take_off_s: take_off_s(before), from: place(before), to: place(at) };
-                flights.push(flight);
+                flights.push(flight(before, place(at)));
             }
             at = before;
         }

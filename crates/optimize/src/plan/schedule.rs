@@ -5,6 +5,7 @@ use vertifleet_core::{AircraftIx, VertiportIx};
 
 use super::chargers::{Stay, WaitingStands};
 use super::day::Day;
+use super::hop::Landing;
 use super::passengers::{Departure, Passengers};
 use super::problem::Problem;
 use super::stand_times::{Moment, StandTimes};
@@ -12,9 +13,11 @@ use super::stand_times::{Moment, StandTimes};
 /// One flight of an aircraft.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Flight {
+    /// The second of its decision, at which the aircraft takes off unless it waits for charge.
     pub(super) take_off_s: u32,
     pub(super) from: VertiportIx,
     pub(super) to: VertiportIx,
+    pub(super) landing: Landing,
 }
 
 /// The flights of one aircraft. An itinerary is *whole* once it reaches the end of the plan. Before
@@ -23,7 +26,7 @@ pub(super) struct Flight {
 #[derive(Debug, Clone)]
 pub(super) struct Itinerary {
     place: VertiportIx,
-    ready_s: u32,
+    start: Landing,
     pub(super) flights: Vec<Flight>,
     whole: bool,
 }
@@ -48,13 +51,13 @@ impl Schedule {
         let mut itineraries = Vec::with_capacity(places.len());
         for (aircraft, &place) in day.fleet().zip(places) {
             stands.take_at_first(place);
-            stands.free(place, Moment::of(day.first_s, aircraft));
-            itineraries.push(Itinerary {
-                place,
-                ready_s: day.first_s,
-                flights: Vec::new(),
-                whole: false,
-            });
+            let start = day.start(aircraft);
+            // An aircraft that never decides stays where it is.
+            let whole = start.ready_s > day.end_s;
+            if !whole {
+                stands.free(place, Moment::of(start.ready_s, aircraft));
+            }
+            itineraries.push(Itinerary { place, start, flights: Vec::new(), whole });
         }
         let mut schedule = Self {
             itineraries,
@@ -84,17 +87,11 @@ impl Schedule {
         self.itineraries[aircraft.at()].whole
     }
 
-    /// The vertiport of the aircraft after its last flight, and the second at which it is ready
-    /// there.
-    pub(super) fn open_end(&self, day: &Day, aircraft: AircraftIx) -> (VertiportIx, u32) {
+    /// The vertiport of the aircraft after its last flight, and its landing there.
+    pub(super) fn open_end(&self, aircraft: AircraftIx) -> (VertiportIx, Landing) {
         let itinerary = &self.itineraries[aircraft.at()];
-        match itinerary.flights.last() {
-            None => (itinerary.place, itinerary.ready_s),
-            Some(last) => {
-                let hop = day.hop(day.kind(aircraft), last.from, last.to);
-                (last.to, day.landing(aircraft, last.from, hop, last.take_off_s).ready_s)
-            }
-        }
+        let last = itinerary.flights.last();
+        last.map_or((itinerary.place, itinerary.start), |last| (last.to, last.landing))
     }
 
     /// Removes the flights from the one at `first` on from a whole itinerary, and appends them to
@@ -117,7 +114,7 @@ impl Schedule {
             self.value_usd += self.enter_account(day, aircraft, flight, -1);
         }
         self.itineraries[aircraft.at()].flights.truncate(first);
-        let (place, ready_s) = self.open_end(day, aircraft);
+        let (place, Landing { ready_s, .. }) = self.open_end(aircraft);
         if ready_s <= day.end_s {
             self.stands.free(place, Moment::of(ready_s, aircraft));
             self.itineraries[aircraft.at()].whole = false;
@@ -146,7 +143,7 @@ impl Schedule {
             debug_assert!(flights.is_empty(), "a whole itinerary takes no more flights");
             return;
         }
-        let (place, ready_s) = self.open_end(day, aircraft);
+        let (place, Landing { ready_s, .. }) = self.open_end(aircraft);
         self.stands.take_back(place, Moment::of(ready_s, aircraft));
         for &flight in flights {
             let moment = Moment::of(flight.take_off_s, aircraft);
@@ -175,19 +172,24 @@ impl Schedule {
     /// The stays of an aircraft. If its itinerary is not whole, it leaves the last one when it is
     /// ready.
     fn stays(&self, day: &Day, aircraft: AircraftIx) -> Vec<Stay> {
-        let Itinerary { place, ready_s, flights, whole } = &self.itineraries[aircraft.at()];
+        let Itinerary { place, start, flights, whole } = &self.itineraries[aircraft.at()];
         let (comes, leaves) = (Moment::FIRST, Moment::NEVER);
-        let first = Stay { aircraft, at: *place, comes, ready_s: *ready_s, leaves };
+        let full_s = |at: VertiportIx, landing: Landing| {
+            let batteries = day.batteries.as_ref();
+            let kind = day.kind(aircraft);
+            batteries.map_or(0, |batteries| batteries.full_s(kind, at, landing.landed))
+        };
+        let (ready_s, full) = (start.ready_s, full_s(*place, *start));
+        let first = Stay { aircraft, at: *place, comes, ready_s, full_s: full, leaves };
         let mut stays = vec![first];
         for flight in flights {
             let moment = Moment::of(flight.take_off_s, aircraft);
-            let hop = day.hop(day.kind(aircraft), flight.from, flight.to);
-            let landing = day.landing(aircraft, flight.from, hop, flight.take_off_s);
             if let Some(last) = stays.last_mut() {
                 last.leaves = moment;
             }
-            let (at, ready_s) = (flight.to, landing.ready_s);
-            stays.push(Stay { aircraft, at, comes: moment, ready_s, leaves });
+            let (at, ready_s) = (flight.to, flight.landing.ready_s);
+            let full_s = full_s(at, flight.landing);
+            stays.push(Stay { aircraft, at, comes: moment, ready_s, full_s, leaves });
         }
         if let Some(last) = stays.last_mut().filter(|_| !whole) {
             last.leaves = Moment::of(last.ready_s, aircraft);
@@ -203,8 +205,7 @@ impl Schedule {
         let cell = day.cell(period, flight.from, flight.to);
         let departure = Departure { cell, period, take_off_s: flight.take_off_s };
         let margin_usd = self.passengers.add(day, departure, sign * day.seats(aircraft));
-        let landing = day.landing(aircraft, flight.from, hop, flight.take_off_s);
-        let cost_usd = day.flying_cost_usd(hop, period, landing.arrival_s);
+        let cost_usd = day.flying_cost_usd(hop, period, flight.landing.landed.arrival_s);
         margin_usd - sign as f64 * cost_usd
     }
 

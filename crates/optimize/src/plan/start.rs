@@ -140,8 +140,13 @@ fn better(one: PlayedDay, other: PlayedDay) -> PlayedDay {
 pub(super) fn schedule_of(problem: &Problem, trace: &Trace) -> Schedule {
     let mut flights = vec![Vec::new(); problem.day.fleet().len()];
     for row in trace.rows.iter().filter(|row| row.from != row.to) {
-        let flight = Flight { take_off_s: row.time.seconds(), from: row.from, to: row.to };
-        flights[row.aircraft.at()].push(flight);
+        let (day, take_off_s) = (&problem.day, row.time.seconds());
+        let own: &mut Vec<Flight> = &mut flights[row.aircraft.at()];
+        let before = own.last().map_or_else(|| day.start(row.aircraft), |flight| flight.landing);
+        let hop = day.hop(day.kind(row.aircraft), row.from, row.to);
+        let landing = day.landing(row.aircraft, row.from, hop, take_off_s, before.landed);
+        let landing = landing.expect("the simulator has flown it");
+        own.push(Flight { take_off_s, from: row.from, to: row.to, landing });
     }
     Schedule::of(problem, &flights)
 }

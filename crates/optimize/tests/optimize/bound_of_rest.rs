@@ -8,7 +8,7 @@ use vertifleet_optimize::{Step, upper_bound, upper_bound_of_rest};
 use vertifleet_policy::{BidPricePolicy, Greedy, Policy};
 use vertifleet_sim::Imagined;
 use vertifleet_sim::live::{LiveDay, Report, Reporter};
-use vertifleet_testkit::{Size, any_extended_day, paper_day};
+use vertifleet_testkit::{Size, any_energy_day, any_extended_day, paper_day};
 
 fn bound_usd(day: &Scenario, ready: &[Time], minutes: u32) -> f64 {
     let step = Step::from_minutes(minutes).expect("a step");
@@ -56,7 +56,8 @@ fn no_way_to_go_on_earns_more_than_the_bound_of_the_rest() {
     let excess_usd: Vec<f64> = (0..400_u32)
         .into_par_iter()
         .filter_map(|number| {
-            let day = any_extended_day(number.into(), Size { vertiports: 3, fleet: 3, hours: 3 });
+            let size = Size { vertiports: 3, fleet: 3, hours: 3 };
+            let day = [any_extended_day, any_energy_day][number as usize % 2](number.into(), size);
             let mut live = begun(&day, &mut Greedy, 1 + number % 6);
             let so_far = live.totals().profit_usd;
             let best = best_of_rest(&mut live.rest(), &mut 3_000)? - so_far;

@@ -8,7 +8,7 @@ use vertifleet_core::{Aircraft, AircraftIx, Outage, Scenario, TypeIx, VertiportI
 use vertifleet_optimize::{DesignBound, Step, day_of_passengers, upper_bound};
 use vertifleet_policy::{BidPricePolicy, Greedy, Policy, Random, play};
 use vertifleet_sim::{DayTotals, Simulation};
-use vertifleet_testkit::{Size, any_extended_day};
+use vertifleet_testkit::{Size, any_energy_day, any_extended_day};
 
 fn played(day: &Arc<Scenario>, policy: &mut dyn Policy) -> DayTotals {
     let mut simulation = Simulation::new(Arc::clone(day));
@@ -58,7 +58,7 @@ fn redesigned(day: &Scenario, mix: u32) -> Scenario {
     let fleet = 1 + mix as usize / 7 % left.len();
     let one = |(number, at)| {
         let kind = TypeIx::new((mix as usize + number) % types);
-        Aircraft { id: format!("N{number}"), kind, at }
+        Aircraft { id: format!("N{number}"), kind, at, start_charge_kwh: None }
     };
     day.aircraft = left.into_iter().take(fleet).enumerate().map(one).collect();
     let outage = |at: usize| {
@@ -77,7 +77,8 @@ proptest! {
     fn no_policy_earns_or_carries_more_in_any_design(
         number in any::<u32>(), mix in any::<u32>(), minutes in 5_u32..60
     ) {
-        let day = any_extended_day(number.into(), Size { vertiports: 5, fleet: 8, hours: 4 });
+        let size = Size { vertiports: 5, fleet: 8, hours: 4 };
+        let day = [any_extended_day, any_energy_day][mix as usize / 2 % 2](number.into(), size);
         // The day that is bounded may have none of the outages that the other design has.
         let bounded = if mix % 2 == 0 { day.as_ref().clone() } else { without_outages(&day) };
         let (profit, carried) =

@@ -3,6 +3,7 @@
 mod bound;
 mod bound_of_rest;
 mod designs;
+mod energy;
 mod exhaustive;
 mod known_closures;
 mod planner;

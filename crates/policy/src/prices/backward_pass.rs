@@ -9,9 +9,9 @@
 use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
-use vertifleet_core::VertiportIx;
 
 use super::hops::{Hops, Stay};
+use super::levels::Level;
 use super::quads::{Arrival, QUAD, QuadsOfKind};
 use super::values::HOLD;
 
@@ -28,10 +28,13 @@ pub(super) struct BackwardPass<'a> {
     pub(super) slots: usize,
     /// Distance from a vertiport to the next in the tables of dollars.
     pub(super) stride: usize,
-    pub(super) hold: Stay,
+    /// Levels of charge, each a row of a vertiport.
+    pub(super) levels: usize,
+    /// By row: its hold, and the level at which that ends.
+    pub(super) holds: &'a [(Stay, Level)],
     pub(super) paid_usd: &'a [f64],
     pub(super) worth_usd: &'a mut [f64],
-    /// By vertiport, then slot.
+    /// By row, then slot.
     pub(super) best: &'a mut [u16],
 }
 
@@ -137,9 +140,9 @@ impl<S: Simd> Best<S> {
         arrival: &Arrival,
         (earlier_usd, later_usd): (&f64, &f64),
     ) {
-        let slots = arrival.slots as usize;
-        let end = slots + S::F64_LANES + 1;
-        let around = &destination.worth_usd[slots..end];
+        let begin = arrival.offset as usize;
+        let end = begin + S::F64_LANES + 1;
+        let around = &destination.worth_usd[begin..end];
         let (before, after) = (load::<S>(around), load::<S>(&around[1..]));
         let rise = simd.mul_f64s(simd.splat_f64s(arrival.share), simd.sub_f64s(after, before));
         let mut follows = simd.add_f64s(before, rise);
@@ -154,7 +157,12 @@ impl<S: Simd> Best<S> {
             let is_earlier = simd.less_than_f64s(lanes.boundaries, lanes.change);
             gain_usd = simd.select_f64s(is_earlier, simd.splat_f64s(*earlier_usd), gain_usd);
         }
-        let usd = simd.add_f64s(gain_usd, follows);
+        let mut usd = simd.add_f64s(gain_usd, follows);
+        if LATE {
+            let may_leave =
+                simd.less_than_f64s(lanes.boundaries, simd.splat_f64s(arrival.first_closed));
+            usd = simd.select_f64s(may_leave, usd, simd.splat_f64s(f64::NEG_INFINITY));
+        }
         let better = simd.greater_than_f64s(usd, self.usd);
         self.usd = simd.select_f64s(better, usd, self.usd);
         self.to = simd.select_u64s(better, destination.to, self.to);
@@ -173,14 +181,14 @@ impl BackwardPass<'_> {
         for quad in 0..self.quads.count() {
             let best = self.best_hops::<S, LATE, MIXED>(simd, block, quad);
             for (number, best) in best.iter().enumerate() {
-                let from = QUAD * quad + number;
-                if from >= self.paid_usd.len() / self.stride {
+                let row = QUAD * quad + number;
+                if row >= self.holds.len() {
                     break;
                 }
                 let mut found = ([0.0; MOST_LANES], [NOWHERE; MOST_LANES]);
                 S::as_mut_simd_f64s(&mut found.0).0[0] = best.usd;
                 S::as_mut_simd_u64s(&mut found.1).0[0] = best.to;
-                self.hold_or_fly(VertiportIx::new(from), block, (&found.0, &found.1));
+                self.hold_or_fly(row, block, (&found.0, &found.1));
             }
         }
     }
@@ -208,8 +216,9 @@ impl BackwardPass<'_> {
         for ((hops, earlier_usd), later_usd) in
             self.quads.hops(quad).iter().zip(earlier_usd).zip(later_usd)
         {
-            let row = usize::try_from(hops.to).expect("an index") * self.stride;
-            let worth_usd = &worth_usd[row..row + self.stride - block.first_lane];
+            let to = usize::try_from(hops.to).expect("an index");
+            let (row, rows) = (to * self.stride, self.levels * self.stride);
+            let worth_usd = &worth_usd[to * rows..(to + 1) * rows - block.first_lane];
             let destination = Destination::<S> {
                 worth_usd,
                 paid_usd: load::<S>(&paid_usd[row..row + S::F64_LANES]),
@@ -230,25 +239,33 @@ impl BackwardPass<'_> {
     }
 
     /// Enters the better of the best hop and a hold at the boundaries of a block. It starts with
-    /// the last boundary, because a hold may lead from one of them to another.
+    /// the last boundary, because a hold may lead from one of them to another. A hold leads to the
+    /// row of no lower level, which comes first.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn hold_or_fly(
         &mut self,
-        from: VertiportIx,
+        row: usize,
         block: &Block,
         (fly_usd, destinations): (&[f64; MOST_LANES], &[u64; MOST_LANES]),
     ) {
-        let row = from.at() * self.stride..(from.at() + 1) * self.stride;
-        let paid_usd = &self.paid_usd[row.clone()];
-        let worth_usd = &mut self.worth_usd[row];
-        let best = &mut self.best[from.at() * self.slots..][..self.slots];
+        let (from, level) = (row / self.levels, row % self.levels);
+        let (hold, higher) = self.holds[row];
+        let paid_usd = &self.paid_usd[from * self.stride..][..self.stride];
+        let above = (level - usize::from(higher)) * self.stride;
+        let own = row * self.stride;
+        let (before, worth_usd) = self.worth_usd[..own + self.stride].split_at_mut(own);
+        let best = &mut self.best[row * self.slots..][..self.slots];
         for at in block.boundaries.clone().rev() {
-            let ready = at + self.hold.slots;
-            let follows = if at < self.hold.first_late {
-                worth_usd[ready] + self.hold.share * (worth_usd[ready + 1] - worth_usd[ready])
-            } else {
+            let ready = at + hold.slots;
+            let follows = if at >= hold.first_late {
                 worth_usd[self.slots]
+            } else {
+                let held_usd = match above {
+                    0 => &*worth_usd,
+                    above => &before[own - above..],
+                };
+                held_usd[ready] + hold.share * (held_usd[ready + 1] - held_usd[ready])
             };
             let hold_usd = paid_usd[at] + follows;
             let fly_usd = fly_usd[at - block.first_lane];

@@ -1,10 +1,12 @@
 //! The worth of the choices of one decision at given prices: what is the same for all of them is
 //! looked up once.
 
-use vertifleet_core::VertiportIx;
+use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Decision, Departures, View};
 
 use super::PricedChoice;
+use super::charged_flights::{ChargedFlight, ChargedFlights};
+use super::levels::{Levels, ReadyAt};
 use super::values::WorthsFrom;
 
 /// The choices of a decision.
@@ -17,11 +19,60 @@ pub struct Choices<'a> {
     /// Passengers who want to fly now, by destination.
     waiting: &'a [u32],
     worths: WorthsFrom<'a>,
+    /// Where the charge of the aircraft matters.
+    charge: Option<Charge<'a>>,
+}
+
+/// The charge of the aircraft of a decision, and what choices do to it.
+#[derive(Debug, Clone, Copy)]
+struct Charge<'a> {
+    kind: TypeIx,
+    /// Seconds to a full battery.
+    to_full_s: f32,
+    /// By destination.
+    flights: &'a [ChargedFlight],
+    /// The aircraft after a hold.
+    held: ReadyAt,
+    levels: &'a Levels,
+}
+
+impl<'a> Charge<'a> {
+    #[expect(clippy::cast_possible_truncation, reason = "seconds to a tenth are enough")]
+    fn of(
+        view: View<'_>,
+        decision: &Decision,
+        levels: &'a Levels,
+        flights: &'a ChargedFlights,
+    ) -> Self {
+        let Decision { aircraft, at, time, .. } = *decision;
+        let kind = view.kind(aircraft);
+        let to_full_s = view.charge_rate(kind, at).to_full_s(view.charge_mwh_at(decision));
+        let (hold_s, ready_s) = (f64::from(view.hold_s()), time.seconds() + view.hold_s());
+        let held = levels.nearest_to((kind, at), ready_s, (to_full_s - hold_s).max(0.0));
+        let held = held.no_sooner_than(time.seconds());
+        let flights = flights.from(kind, at);
+        Self { kind, to_full_s: to_full_s as f32, flights, held, levels }
+    }
+}
+
+/// Whole seconds of a wait, at least 0.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "not negative, and a full charge takes at most 5,000 hours"
+)]
+fn wait_s(seconds: f32) -> u32 {
+    seconds.ceil().max(0.0) as u32
 }
 
 impl<'a> Choices<'a> {
     #[inline]
-    pub(super) fn of(view: View<'a>, decision: &Decision, worths: WorthsFrom<'a>) -> Self {
+    pub(super) fn of(
+        view: View<'a>,
+        decision: &Decision,
+        worths: WorthsFrom<'a>,
+        (levels, flights): (&'a Levels, &'a ChargedFlights),
+    ) -> Self {
         let Decision { time, aircraft, at: own, .. } = *decision;
         Self {
             own,
@@ -31,6 +82,7 @@ impl<'a> Choices<'a> {
             waiting: &view.demand_left_in(view.period())[own.at() * view.vertiports()..]
                 [..view.vertiports()],
             worths,
+            charge: view.charges_as_needed().then(|| Charge::of(view, decision, levels, flights)),
         }
     }
 
@@ -39,11 +91,29 @@ impl<'a> Choices<'a> {
     /// passengers; this one does not.
     #[inline]
     pub fn worth_usd(&self, to: VertiportIx) -> f64 {
+        if let Some(charge) = &self.charge {
+            return self.worth_by_charge_usd(charge, to);
+        }
         if to == self.own {
             return self.worths.usd(to, self.time_s + self.hold_s);
         }
         self.departures.profit_usd(to, self.waiting[to.at()])
             + self.worths.usd(to, self.time_s + self.departures.block_s(to))
+    }
+
+    /// The same on a day that charges as needed.
+    fn worth_by_charge_usd(&self, charge: &Charge<'_>, to: VertiportIx) -> f64 {
+        if to == self.own {
+            return self.worths.at_level_usd(self.own, charge.held);
+        }
+        let flight = &charge.flights[to.at()];
+        let wait_s = wait_s(charge.to_full_s - flight.most_s);
+        let ready_s = self.time_s + wait_s + self.departures.block_s(to);
+        let to_full_s = flight.when_ready_s(charge.to_full_s.min(flight.most_s));
+        let ready = charge.levels.nearest_to((charge.kind, to), ready_s, to_full_s.into());
+        let follows_usd = self.worths.at_level_usd(to, ready.no_sooner_than(self.time_s));
+        let takeoff = Time::from_seconds(self.time_s + wait_s);
+        self.departures.profit_from_usd(takeoff, to, self.waiting[to.at()]) + follows_usd
     }
 
     /// A choice within range with its worth.

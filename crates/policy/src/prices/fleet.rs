@@ -1,7 +1,9 @@
 //! The fleet at its next decisions, for a search for prices.
 
-use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
+use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
 use vertifleet_sim::View;
+
+use super::levels::{Level, Levels, ReadyAt};
 
 /// An aircraft at its next decision.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -9,6 +11,7 @@ pub(super) struct Ready {
     pub(super) kind: TypeIx,
     pub(super) place: VertiportIx,
     pub(super) at_s: u32,
+    pub(super) level: Level,
 }
 
 /// All aircraft, and those that are alike as groups: they take the same way, so one of each group
@@ -22,12 +25,19 @@ pub(super) struct Fleet {
 
 impl Fleet {
     /// Takes the fleet of a view.
-    pub(super) fn load(&mut self, view: View<'_>) {
+    pub(super) fn load(&mut self, view: View<'_>, levels: &Levels) {
         self.aircraft.clear();
-        self.aircraft.extend(AircraftIx::all(view.places().len()).map(|aircraft| Ready {
-            kind: view.kind(aircraft),
-            place: view.places()[aircraft.at()],
-            at_s: view.ready_at(aircraft).seconds(),
+        let ready = AircraftIx::all(view.places().len()).map(|aircraft| view.ready_at(aircraft));
+        let now_s = ready.min().map_or(0, Time::seconds);
+        self.aircraft.extend(AircraftIx::all(view.places().len()).map(|aircraft| {
+            let (kind, place) = (view.kind(aircraft), view.places()[aircraft.at()]);
+            let mut ready = ReadyAt { level: 0, time_s: view.ready_at(aircraft).seconds() };
+            if view.charges_as_needed() {
+                let charge_mwh = view.charge_mwh(aircraft);
+                ready = levels.nearest(view, (kind, place), ready.time_s, charge_mwh);
+                ready = ready.no_sooner_than(now_s);
+            }
+            Ready { kind, place, at_s: ready.time_s, level: ready.level }
         }));
         self.sorted.clone_from(&self.aircraft);
         self.sorted.sort_unstable();

@@ -1,11 +1,12 @@
 //! The flights that aircraft of each type may make from each vertiport, and their profit in each
 //! interval of the day.
 
-use vertifleet_core::{TypeIx, VertiportIx};
+use vertifleet_core::{TypeIx, VertiportIx, whole_mwh};
 use vertifleet_sim::View;
 
 use super::clock::{Clock, SLOT_S};
 use super::intervals::Intervals;
+use super::levels::{Level, Levels, ReadyAt};
 use super::quads::Quads;
 
 /// Number of demand periods for which a route that is closed unexpectedly is assumed to stay
@@ -22,6 +23,9 @@ pub(super) struct Stay {
     pub(super) share: f64,
     /// The first boundary from which the stay ends past the end of operations.
     pub(super) first_late: usize,
+    /// The first boundary from which it would take off past the end of operations, if it waits for
+    /// charge.
+    pub(super) first_closed: Option<usize>,
 }
 
 impl Stay {
@@ -33,7 +37,15 @@ impl Stay {
             slots: ((block_s / SLOT_S) as usize).min(clock.slots),
             share: f64::from(block_s % SLOT_S) / f64::from(SLOT_S),
             first_late: first_late as usize,
+            first_closed: None,
         }
+    }
+
+    /// A flight that takes off some seconds after its decision.
+    fn taking_off_after(self, wait_s: u32, clock: &Clock) -> Self {
+        let last_s = clock.end_s - clock.start_s;
+        let first = last_s.checked_sub(wait_s).map_or(0, |latest_s| latest_s / SLOT_S + 1);
+        Self { first_closed: (wait_s > 0).then_some(first as usize), ..self }
     }
 }
 
@@ -41,8 +53,6 @@ impl Stay {
 #[derive(Debug, Clone, Copy)]
 struct Hop {
     to: VertiportIx,
-    block_s: u32,
-    stay: Stay,
     flight_s: u32,
     energy_kwh: f64,
     flight_cost_usd: f64,
@@ -51,10 +61,14 @@ struct Hop {
     pair: usize,
 }
 
-/// The parts of a hop that are needed to follow an aircraft.
+/// The parts of a hop from a level of charge that are needed to follow an aircraft.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Flight {
+    /// Seconds from the decision until the aircraft is ready at the level.
     pub(super) block_s: u32,
+    /// Seconds from the decision until take-off.
+    wait_s: u32,
+    pub(super) level: Level,
     /// Position of the hop among all hops, or [`NONE`].
     pub(super) hop: u32,
 }
@@ -66,14 +80,15 @@ const NONE: u32 = u32::MAX;
 #[derive(Debug, Clone)]
 pub(super) struct Hops {
     vertiports: usize,
+    levels: usize,
     all: Vec<Hop>,
     /// The position at which the hops of each type and vertiport begin, and at the end the number
     /// of hops.
     begins: Vec<usize>,
-    /// By type, then pair.
+    /// By type, pair, then level.
     flights: Vec<Flight>,
     pub(super) quads: Quads,
-    /// By hop: the position of its gain among the gains of an interval.
+    /// By hop, then level: the position of its gain among the gains of an interval.
     gain_at: Vec<u32>,
     pub(super) intervals: Intervals,
     /// By interval, then hop: its profit in dollars before its passengers are paid for, and in
@@ -86,7 +101,8 @@ pub(super) struct Hops {
 }
 
 impl Hops {
-    pub(super) fn of(view: View<'_>, clock: &Clock) -> Self {
+    /// `stride` is the distance from one level of a vertiport to the next in the tables of worth.
+    pub(super) fn of(view: View<'_>, clock: &Clock, levels: &Levels, stride: usize) -> Self {
         let vertiports = view.vertiports();
         let (mut hops, mut begins) = (Vec::new(), vec![0]);
         for kind in TypeIx::all(view.aircraft_types().len()) {
@@ -94,11 +110,8 @@ impl Hops {
             for from in VertiportIx::all(vertiports) {
                 hops.extend(view.within_range(kind, from).iter().map(|to| {
                     let leg = view.leg(kind, from, to);
-                    let block_s = leg.block_s();
                     Hop {
                         to,
-                        block_s,
-                        stay: Stay::of(block_s, clock),
                         flight_s: leg.flight_s,
                         energy_kwh: leg.energy_kwh,
                         flight_cost_usd: view.flight_costs_usd(from)[to.at()],
@@ -112,14 +125,19 @@ impl Hops {
         let intervals = Intervals::of(view, clock);
         let cells = intervals.all.len() * hops.len();
         let kinds = view.aircraft_types().len();
-        let flights = flights(&hops, &begins, vertiports);
-        let quads = Quads::of((kinds, vertiports), |kind, from, to| {
-            let flight = flights[(kind.at() * vertiports + from.at()) * vertiports + to.at()];
-            (flight.hop != NONE).then(|| hops[flight.hop as usize].stay)
+        let flights = flights(view, &hops, &begins, levels);
+        let count = levels.count;
+        let quads = Quads::of((kinds, vertiports, count), stride, |kind, row, to| {
+            let (from, level) = (row / count, row % count);
+            let pair = (kind.at() * vertiports + from) * vertiports + to.at();
+            let flight = flights[pair * count + level];
+            let stay = || Stay::of(flight.block_s, clock).taking_off_after(flight.wait_s, clock);
+            (flight.hop != NONE).then(|| (stay(), flight.level))
         });
         let mut made = Self {
             vertiports,
-            gain_at: Vec::with_capacity(hops.len()),
+            levels: count,
+            gain_at: Vec::with_capacity(hops.len() * count),
             gain_usd: vec![f64::NEG_INFINITY; intervals.all.len() * quads.gains()],
             flights,
             quads,
@@ -140,10 +158,14 @@ impl Hops {
             let all = kind.at() * self.vertiports;
             for hop in &self.all[self.begins[all]..self.begins[all + self.vertiports]] {
                 let from = VertiportIx::new(hop.pair / self.vertiports);
-                let at = self.quads.gain_at(kind, self.vertiports, (from, hop.to));
-                self.gain_at.push(u32::try_from(at).expect("a day has few hops"));
-                for gains_usd in self.gain_usd.chunks_exact_mut(self.quads.gains()) {
-                    gains_usd[at] = 0.0;
+                for level in 0..self.levels {
+                    let row = from.at() * self.levels + level;
+                    let rows = self.vertiports * self.levels;
+                    let at = self.quads.gain_at(kind, rows, (row, hop.to));
+                    self.gain_at.push(u32::try_from(at).expect("a day has few hops"));
+                    for gains_usd in self.gain_usd.chunks_exact_mut(self.quads.gains()) {
+                        gains_usd[at] = 0.0;
+                    }
                 }
             }
         }
@@ -183,13 +205,16 @@ impl Hops {
     pub(super) fn charge(&mut self, period: usize, pair: usize, price_usd: f64) {
         let pairs = self.vertiports * self.vertiports;
         for interval in self.intervals.of_period(period) {
-            for flights in self.flights.chunks_exact(pairs) {
-                if flights[pair].hop != NONE {
-                    let hop = flights[pair].hop as usize;
+            for flights in self.flights.chunks_exact(pairs * self.levels) {
+                let flight = flights[pair * self.levels];
+                if flight.hop != NONE {
+                    let hop = flight.hop as usize;
                     let cell = interval * self.all.len() + hop;
-                    let gain_at = interval * self.quads.gains() + self.gain_at[hop] as usize;
-                    self.gain_usd[gain_at] =
-                        self.profit_usd[cell] - self.passengers[cell] * price_usd;
+                    let gain_usd = self.profit_usd[cell] - self.passengers[cell] * price_usd;
+                    let gains = interval * self.quads.gains();
+                    for &gain_at in &self.gain_at[hop * self.levels..][..self.levels] {
+                        self.gain_usd[gains + gain_at as usize] = gain_usd;
+                    }
                 }
             }
         }
@@ -205,22 +230,27 @@ impl Hops {
             let row = at * count..(at + 1) * count;
             let earned = self.profit_usd[row.clone()].iter().zip(&self.passengers[row.clone()]);
             let gains_usd = &mut self.gain_usd[at * self.quads.gains()..][..self.quads.gains()];
-            for ((hop, &gain_at), (profit_usd, passengers)) in
-                self.all.iter().zip(&self.gain_at).zip(earned)
+            for ((hop, gain_at), (profit_usd, passengers)) in
+                self.all.iter().zip(self.gain_at.chunks_exact(self.levels)).zip(earned)
             {
-                gains_usd[gain_at as usize] = profit_usd - passengers * price_usd[hop.pair];
+                let after_usd = profit_usd - passengers * price_usd[hop.pair];
+                for &gain_at in gain_at {
+                    gains_usd[gain_at as usize] = after_usd;
+                }
             }
         }
     }
 
+    /// Number of hops, counted once for each level of charge.
     pub(super) fn len(&self) -> usize {
-        self.all.len()
+        self.all.len() * self.levels
     }
 
-    /// The flight of a type from one vertiport to another.
+    /// The flight of a type from one vertiport to another, from a level of charge.
     #[inline]
-    pub(super) fn flight(&self, kind: TypeIx, pair: usize) -> Flight {
-        self.flights[kind.at() * self.vertiports * self.vertiports + pair]
+    pub(super) fn flight(&self, kind: TypeIx, pair: usize, level: Level) -> Flight {
+        let pair = kind.at() * self.vertiports * self.vertiports + pair;
+        self.flights[pair * self.levels + usize::from(level)]
     }
 
     /// The gains of all hops in an interval, in the order of quads.
@@ -236,17 +266,66 @@ impl Hops {
     }
 }
 
-/// The flight of every type and pair.
-fn flights(hops: &[Hop], begins: &[usize], vertiports: usize) -> Vec<Flight> {
+/// The flight of every type and pair, from every level of charge.
+fn flights(view: View<'_>, hops: &[Hop], begins: &[usize], levels: &Levels) -> Vec<Flight> {
+    let (vertiports, count) = (view.vertiports(), levels.count);
     let (pairs, kinds) = (vertiports * vertiports, (begins.len() - 1) / vertiports);
-    let mut flights = vec![Flight { block_s: 0, hop: NONE }; kinds * pairs];
-    for kind in 0..kinds {
-        for at in begins[kind * vertiports]..begins[(kind + 1) * vertiports] {
-            let hop = u32::try_from(at).expect("a day has few hops");
-            flights[kind * pairs + hops[at].pair] = Flight { block_s: hops[at].block_s, hop };
+    let none = Flight { block_s: 0, wait_s: 0, level: 0, hop: NONE };
+    let mut flights = vec![none; kinds * pairs * count];
+    for kind in TypeIx::all(kinds) {
+        let of_kind = begins[kind.at() * vertiports]..begins[(kind.at() + 1) * vertiports];
+        for (at, hop) in of_kind.clone().zip(&hops[of_kind]) {
+            let from = VertiportIx::new(hop.pair / vertiports);
+            let first = (kind.at() * pairs + hop.pair) * count;
+            for (level, flight) in (0..).zip(&mut flights[first..][..count]) {
+                let (wait_s, ready) = ready_after(view, levels, kind, (from, hop.to), level);
+                let hop = u32::try_from(at).expect("a day has few hops");
+                *flight = Flight { block_s: ready.time_s, wait_s, level: ready.level, hop };
+            }
         }
     }
     flights
+}
+
+/// When an aircraft takes off on a flight that is decided at a level of charge, and when and with
+/// which charge it is ready afterwards, seconds from the decision.
+fn ready_after(
+    view: View<'_>,
+    levels: &Levels,
+    kind: TypeIx,
+    (from, to): (VertiportIx, VertiportIx),
+    level: Level,
+) -> (u32, ReadyAt) {
+    let leg = view.leg(kind, from, to);
+    if !view.charges_as_needed() {
+        return (0, ReadyAt { level, time_s: leg.block_s() });
+    }
+    let energy_mwh = whole_mwh(leg.energy_kwh);
+    let charge_mwh = levels.charge_mwh(kind, level);
+    let needed_mwh = energy_mwh + whole_mwh(view.aircraft_type(kind).reserve_kwh);
+    let wait_s = view.charge_rate(kind, from).needed_s(charge_mwh, needed_mwh);
+    let landed_mwh = charge_mwh.max(needed_mwh) - energy_mwh;
+    let ready_mwh = view.charge_rate(kind, to).charged_mwh(landed_mwh, leg.ground_s);
+    let ready = levels.nearest(view, (kind, to), wait_s + leg.block_s(), ready_mwh);
+    // It may not decide again at once, for ever.
+    (wait_s, ready.no_sooner_than(SLOT_S))
+}
+
+/// When and with which charge an aircraft is ready after a hold that is decided at a level of
+/// charge, seconds from the decision.
+pub(super) fn ready_after_hold(
+    view: View<'_>,
+    levels: &Levels,
+    (kind, at): (TypeIx, VertiportIx),
+    level: Level,
+) -> ReadyAt {
+    let hold_s = view.hold_s();
+    if !view.charges_as_needed() {
+        return ReadyAt { level, time_s: hold_s };
+    }
+    let charge_mwh = levels.charge_mwh(kind, level);
+    let held_mwh = view.charge_rate(kind, at).charged_mwh(charge_mwh, hold_s);
+    levels.nearest(view, (kind, at), hold_s, held_mwh).no_sooner_than(SLOT_S)
 }
 
 /// Price of the energy of flights of a given duration that take off in a period, dollars per kWh:

@@ -8,6 +8,7 @@
 use vertifleet_core::{TypeIx, VertiportIx};
 
 use super::hops::Stay;
+use super::levels::Level;
 
 /// Number of vertiports whose hops are looked at together.
 pub(super) const QUAD: usize = 4;
@@ -33,21 +34,31 @@ pub(super) struct QuadHops {
 }
 
 /// When a hop arrives, in slots from its decision until the aircraft is ready again.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Arrival {
     pub(super) share: f64,
     /// The first boundary from which it is past the end of operations.
     pub(super) first_late: f64,
-    pub(super) slots: u32,
+    /// The first boundary from which the hop would take off past the end of operations.
+    pub(super) first_closed: f64,
+    /// The slots, and before them the rows of the levels above the one that it arrives at.
+    pub(super) offset: u32,
 }
 
 impl Arrival {
     /// In place of the arrival of a hop that there is not.
-    const NONE: Self = Self { share: 0.0, first_late: f64::INFINITY, slots: 0 };
+    const NONE: Self =
+        Self { share: 0.0, first_late: f64::INFINITY, first_closed: f64::INFINITY, offset: 0 };
 
-    fn of(stay: Stay) -> Self {
-        let slots = u32::try_from(stay.slots).expect("a day has few slots");
-        Self { share: stay.share, first_late: stay.first_late as f64, slots }
+    fn of((stay, level): (Stay, Level), stride: usize) -> Self {
+        let offset = usize::from(level) * stride + stay.slots;
+        let offset = u32::try_from(offset).expect("a day has few slots and levels");
+        Self {
+            share: stay.share,
+            first_late: stay.first_late as f64,
+            first_closed: stay.first_closed.map_or(f64::INFINITY, |first| first as f64),
+            offset,
+        }
     }
 }
 
@@ -61,34 +72,35 @@ pub(super) struct QuadsOfKind<'a> {
 }
 
 impl Quads {
-    /// Lays out hops, given as the stay of each type from one vertiport to another where there is a
-    /// hop.
+    /// Lays out hops, given as the stay of each type from one row, which is a vertiport and a level
+    /// of charge, to another vertiport where there is a hop, with the level at which it ends.
+    /// `stride` is the distance from row to row in the tables of worth.
     pub(super) fn of(
-        (kinds, vertiports): (usize, usize),
-        stay: impl Fn(TypeIx, VertiportIx, VertiportIx) -> Option<Stay>,
+        (kinds, vertiports, levels): (usize, usize, usize),
+        stride: usize,
+        stay: impl Fn(TypeIx, usize, VertiportIx) -> Option<(Stay, Level)>,
     ) -> Self {
+        let rows = vertiports * levels;
         let mut quads =
             Self { all: Vec::new(), begins: vec![0], shortest: Vec::new(), first_late: Vec::new() };
         for kind in TypeIx::all(kinds) {
-            let before = quads.all.len();
-            for first in (0..vertiports).step_by(QUAD) {
+            let (mut shortest, mut first_late) = (usize::MAX, f64::INFINITY);
+            for first in (0..rows).step_by(QUAD) {
                 for to in VertiportIx::all(vertiports) {
                     let arrivals = std::array::from_fn(|number| {
-                        let from = first + number;
-                        let exists = from < vertiports;
-                        let stay = exists.then(|| stay(kind, VertiportIx::new(from), to))?;
-                        stay.map(Arrival::of)
+                        let row = first + number;
+                        let stay = (row < rows).then(|| stay(kind, row, to))??;
+                        shortest = shortest.min(stay.0.slots);
+                        first_late = first_late.min(stay.0.first_late as f64);
+                        Some(Arrival::of(stay, stride))
                     });
                     quads.add(to, arrivals);
                 }
                 quads.begins.push(quads.all.len());
             }
-            let hops = quads.all[before..].iter().flat_map(|hops| hops.arrivals);
-            let hops: Vec<Arrival> = hops.filter(|arrival| *arrival != Arrival::NONE).collect();
-            let shortest = hops.iter().map(|arrival| arrival.slots).min();
-            let first_late = hops.iter().map(|arrival| arrival.first_late).min_by(f64::total_cmp);
-            quads.shortest.push(shortest.map_or(1, |slots| slots as usize));
-            quads.first_late.push(first_late.unwrap_or(0.0));
+            let has_hops = shortest < usize::MAX;
+            quads.shortest.push(if has_hops { shortest } else { 1 });
+            quads.first_late.push(if has_hops { first_late } else { 0.0 });
         }
         quads
     }
@@ -106,18 +118,18 @@ impl Quads {
         QUAD * self.all.len()
     }
 
-    /// The position of the gain of the hop of a type from one vertiport to another among the gains
-    /// of an interval. The hop must exist.
+    /// The position of the gain of the hop of a type from one of `rows` rows to a vertiport among
+    /// the gains of an interval. The hop must exist.
     pub(super) fn gain_at(
         &self,
         kind: TypeIx,
-        vertiports: usize,
-        (from, to): (VertiportIx, VertiportIx),
+        rows: usize,
+        (row, to): (usize, VertiportIx),
     ) -> usize {
-        let quad = kind.at() * vertiports.div_ceil(QUAD) + from.at() / QUAD;
+        let quad = kind.at() * rows.div_ceil(QUAD) + row / QUAD;
         let hops = &self.all[self.begins[quad]..self.begins[quad + 1]];
         let at = hops.partition_point(|hops| hops.to < to.at() as u64);
-        QUAD * (self.begins[quad] + at) + from.at() % QUAD
+        QUAD * (self.begins[quad] + at) + row % QUAD
     }
 
     /// The hops of one type.

@@ -8,9 +8,11 @@
 use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
+use super::charged_flights::ChargedFlights;
 use super::clock::{Clock, SLOT_S};
 use super::fleet::{Fleet, Ready};
-use super::hops::Hops;
+use super::hops::{Hops, ready_after_hold};
+use super::levels::{Level, Levels, ReadyAt};
 use super::ranks::Ranks;
 use super::seats::Seats;
 use super::values::{HOLD, ValueTable};
@@ -26,6 +28,7 @@ struct Way {
     kind: TypeIx,
     place: VertiportIx,
     time_s: u32,
+    level: Level,
     slot: usize,
     count: u32,
 }
@@ -34,9 +37,12 @@ struct Way {
 #[derive(Debug, Clone)]
 pub(super) struct Relaxation {
     clock: Clock,
+    levels: Levels,
+    charged_flights: ChargedFlights,
     hops: Hops,
     vertiports: usize,
-    hold_s: u32,
+    /// By type, vertiport, then level: when a hold ends, seconds from its decision.
+    holds: Vec<ReadyAt>,
     stands: Vec<f64>,
     seats_a_flight: Option<u32>,
     /// The seats that the remaining passengers ask for, by period, then pair.
@@ -71,12 +77,15 @@ impl Relaxation {
         let cells = clock.slots * vertiports;
         let pairs = view.period_starts().len() * vertiports * vertiports;
         let stands = VertiportIx::all(vertiports).map(|at| f64::from(view.stands(at)));
-        let hops = Hops::of(view, &clock);
-        let values = ValueTable::of(view, &clock);
+        let levels = Levels::of(view);
+        let hops = Hops::of(view, &clock, &levels, ValueTable::stride(&clock));
+        let values = ValueTable::of(view, &clock, &levels);
         Self {
             hops,
             vertiports,
-            hold_s: view.hold_s(),
+            holds: holds(view, &levels),
+            charged_flights: ChargedFlights::of(view),
+            levels,
             stands: stands.collect(),
             seats_a_flight: seats_a_flight(view),
             seats: vec![Seats::default(); pairs],
@@ -98,7 +107,7 @@ impl Relaxation {
 
     /// Takes the current fleet and demand from a view.
     pub(super) fn load(&mut self, view: View<'_>) {
-        self.fleet.load(view);
+        self.fleet.load(view, &self.levels);
         let now_s = self.fleet.first_ready_s().unwrap_or(self.clock.start_s);
         self.first_slot = self.clock.slot(now_s).min(self.clock.slots - 1);
         self.first_period = view.period();
@@ -200,7 +209,8 @@ impl Relaxation {
         // No rent has been paid when the first slot begins.
         let begin_s = self.clock.begin_s(self.first_slot);
         for ready in self.fleet.all() {
-            usd += self.values.usd(ready.kind, ready.place, begin_s, ready.at_s);
+            let Ready { kind, place, at_s: time_s, level } = *ready;
+            usd += self.values.at_level_usd(kind, place, begin_s, ReadyAt { level, time_s });
         }
         self.decisions = 0;
         self.wanted.begin_pass();
@@ -215,8 +225,9 @@ impl Relaxation {
     /// Sends some groups of aircraft along their best ways, from group `first` on.
     fn send(&mut self, first: usize) {
         let mut ways: [Option<Way>; SIDE_BY_SIDE] = std::array::from_fn(|number| {
-            let (Ready { kind, place, at_s }, count) = *self.fleet.groups().get(first + number)?;
-            Some(Way { kind, place, time_s: at_s, slot: self.clock.slot(at_s), count })
+            let (ready, count) = *self.fleet.groups().get(first + number)?;
+            let Ready { kind, place, at_s: time_s, level } = ready;
+            Some(Way { kind, place, time_s, level, slot: self.clock.slot(time_s), count })
         });
         for way in ways.iter().flatten() {
             self.ask(way.count, way.place, self.first_slot, way.slot);
@@ -239,16 +250,18 @@ impl Relaxation {
     /// Takes the next decision on a way.
     #[inline]
     fn follow(&mut self, way: &mut Way) {
-        let Way { kind, place, time_s, slot, count } = *way;
+        let Way { kind, place, time_s, level, slot, count } = *way;
         self.decisions += count;
         // The best choice is taken from the nearest boundary.
         let near = ((time_s - self.clock.start_s + SLOT_S / 2) / SLOT_S) as usize;
-        let best = self.values.best(kind, place, near.min(self.clock.slots - 1));
+        let best = self.values.best(kind, place, level, near.min(self.clock.slots - 1));
         if best == HOLD {
-            way.time_s += self.hold_s;
+            let at = kind.at() * self.vertiports + place.at();
+            let hold = self.holds[at * self.levels.count + usize::from(level)];
+            (way.time_s, way.level) = (time_s + hold.time_s, hold.level);
         } else {
             let pair = place.at() * self.vertiports + usize::from(best);
-            let flight = self.hops.flight(kind, pair);
+            let flight = self.hops.flight(kind, pair, level);
             let interval = self.hops.intervals.of_slot[slot];
             let passengers = self.hops.passengers(interval, flight.hop as usize);
             let period = self.hops.intervals.all[interval].period;
@@ -258,7 +271,7 @@ impl Relaxation {
                 self.wanted.add(cell);
             }
             way.place = VertiportIx(best);
-            way.time_s += flight.block_s;
+            (way.time_s, way.level) = (time_s + flight.block_s, flight.level);
         }
         way.slot = self.clock.slot(way.time_s);
         self.ask(count, way.place, slot, way.slot);
@@ -300,6 +313,22 @@ impl Relaxation {
         self.kept_decisions
     }
 
+    /// The level nearest to the charge with which an aircraft is ready at a time.
+    pub(super) fn nearest(
+        &self,
+        view: View<'_>,
+        at: (TypeIx, VertiportIx),
+        ready: Time,
+        charge_mwh: u64,
+    ) -> ReadyAt {
+        self.levels.nearest(view, at, ready.seconds(), charge_mwh)
+    }
+
+    /// The levels of charge, and what flights do to it.
+    pub(super) fn charging(&self) -> (&Levels, &ChargedFlights) {
+        (&self.levels, &self.charged_flights)
+    }
+
     /// The worth of being ready, and the price of stands, anywhere at any time, at the prices of
     /// the pass that is kept.
     #[inline]
@@ -311,6 +340,18 @@ impl Relaxation {
     pub(super) fn passenger_usd(&self, period: usize, from: VertiportIx, to: VertiportIx) -> f64 {
         self.passenger_usd[(period * self.vertiports + from.at()) * self.vertiports + to.at()]
     }
+}
+
+/// When the hold of each type at each vertiport and level of charge ends.
+fn holds(view: View<'_>, levels: &Levels) -> Vec<ReadyAt> {
+    let mut holds = Vec::new();
+    for kind in TypeIx::all(view.aircraft_types().len()) {
+        for at in VertiportIx::all(view.vertiports()) {
+            let ends = (0..).take(levels.count);
+            holds.extend(ends.map(|level| ready_after_hold(view, levels, (kind, at), level)));
+        }
+    }
+    holds
 }
 
 /// The number of seats of all aircraft types; `None` if there are several.

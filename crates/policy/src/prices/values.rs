@@ -10,7 +10,8 @@ use vertifleet_sim::View;
 
 use super::backward_pass::{BackwardPass, MOST_LANES};
 use super::clock::{Clock, Place, SLOT_S};
-use super::hops::{Hops, Stay};
+use super::hops::{Hops, Stay, ready_after_hold};
+use super::levels::{Level, Levels, ReadyAt};
 
 /// In place of a destination: the best choice is to hold.
 pub(super) const HOLD: u16 = u16::MAX;
@@ -20,34 +21,53 @@ pub(super) const HOLD: u16 = u16::MAX;
 pub(super) struct ValueTable {
     clock: Clock,
     vertiports: usize,
-    hold: Stay,
-    /// Distance from a vertiport to the next in the tables: its boundaries, and padding to read
-    /// past the last one.
+    levels: usize,
+    /// By type, vertiport, then level: a hold, and the level at which it ends.
+    holds: Vec<(Stay, Level)>,
+    /// Distance from a row to the next in the tables: its boundaries, and padding to read past the
+    /// last one.
     stride: usize,
     /// Price of a stand from now until a boundary.
     paid_usd: Vec<f64>,
-    /// By type: the worth of being ready *less* `paid_usd`, so that the rent of a stay is one
-    /// subtraction.
+    /// By type, and by level of charge at each vertiport: the worth of being ready *less*
+    /// `paid_usd`, so that the rent of a stay is one subtraction.
     worth_less_paid_usd: Vec<f64>,
-    /// By type, vertiport, then slot: index of the best destination at its beginning, or [`HOLD`].
+    /// By type, vertiport, level, then slot: index of the best destination at its beginning, or
+    /// [`HOLD`].
     best: Vec<u16>,
     arch: Arch,
 }
 
 impl ValueTable {
-    pub(super) fn of(view: View<'_>, clock: &Clock) -> Self {
+    pub(super) fn of(view: View<'_>, clock: &Clock, levels: &Levels) -> Self {
         let (vertiports, kinds) = (view.vertiports(), view.aircraft_types().len());
-        let stride = 2 * clock.slots + MOST_LANES + 1;
+        let stride = Self::stride(clock);
+        let rows = kinds * vertiports * levels.count;
+        let mut holds = Vec::with_capacity(rows);
+        for kind in TypeIx::all(kinds) {
+            for at in VertiportIx::all(vertiports) {
+                for level in (0..).take(levels.count) {
+                    let ready = ready_after_hold(view, levels, (kind, at), level);
+                    holds.push((Stay::of(ready.time_s, clock), ready.level));
+                }
+            }
+        }
         Self {
             clock: *clock,
             vertiports,
-            hold: Stay::of(view.hold_s(), clock),
+            levels: levels.count,
+            holds,
             stride,
             paid_usd: vec![0.0; vertiports * stride],
-            worth_less_paid_usd: vec![0.0; kinds * vertiports * stride],
-            best: vec![HOLD; kinds * vertiports * clock.slots],
+            worth_less_paid_usd: vec![0.0; rows * stride],
+            best: vec![HOLD; rows * clock.slots],
             arch: Arch::new(),
         }
+    }
+
+    /// Distance from a row to the next in the tables of a day.
+    pub(super) fn stride(clock: &Clock) -> usize {
+        2 * clock.slots + MOST_LANES + 1
     }
 
     /// Sums the prices of stands, given by slot and then vertiport, up to each boundary from the
@@ -68,13 +88,16 @@ impl ValueTable {
 
     /// Computes the best choice everywhere and its worth, for each type, from the first slot on.
     pub(super) fn value(&mut self, hops: &Hops, first_slot: usize) {
-        let (table, slots) = (self.vertiports * self.stride, self.clock.slots);
-        let worths = self.worth_less_paid_usd.chunks_exact_mut(table);
-        let bests = self.best.chunks_exact_mut(self.vertiports * slots);
-        for (kind, (worth_usd, best)) in worths.zip(bests).enumerate() {
-            let rows = worth_usd.chunks_exact_mut(self.stride);
-            for (worth_usd, paid_usd) in rows.zip(self.paid_usd.chunks_exact(self.stride)) {
-                worth_usd[slots] = -paid_usd[slots];
+        let (rows, slots) = (self.vertiports * self.levels, self.clock.slots);
+        let worths = self.worth_less_paid_usd.chunks_exact_mut(rows * self.stride);
+        let bests = self.best.chunks_exact_mut(rows * slots);
+        let holds = self.holds.chunks_exact(rows);
+        for (kind, ((worth_usd, best), holds)) in worths.zip(bests).zip(holds).enumerate() {
+            let places = worth_usd.chunks_exact_mut(self.levels * self.stride);
+            for (worth_usd, paid_usd) in places.zip(self.paid_usd.chunks_exact(self.stride)) {
+                for worth_usd in worth_usd[slots..].iter_mut().step_by(self.stride) {
+                    *worth_usd = -paid_usd[slots];
+                }
             }
             self.arch.dispatch(BackwardPass {
                 hops,
@@ -82,7 +105,8 @@ impl ValueTable {
                 first_slot,
                 slots,
                 stride: self.stride,
-                hold: self.hold,
+                levels: self.levels,
+                holds,
                 paid_usd: &self.paid_usd,
                 worth_usd,
                 best,
@@ -93,17 +117,20 @@ impl ValueTable {
     /// Index of the best destination of an aircraft of a type that is ready when a slot begins, or
     /// [`HOLD`].
     #[inline]
-    pub(super) fn best(&self, kind: TypeIx, place: VertiportIx, slot: usize) -> u16 {
-        self.best[(kind.at() * self.vertiports + place.at()) * self.clock.slots + slot]
+    pub(super) fn best(&self, kind: TypeIx, place: VertiportIx, level: Level, slot: usize) -> u16 {
+        let place = kind.at() * self.vertiports + place.at();
+        let row = place * self.levels + usize::from(level);
+        self.best[row * self.clock.slots + slot]
     }
 
     /// The worth of aircraft of a type that decide now.
     #[inline]
     pub(super) fn worths_from(&self, kind: TypeIx, now_s: u32) -> WorthsFrom<'_> {
-        let table = self.vertiports * self.stride;
+        let table = self.vertiports * self.levels * self.stride;
         WorthsFrom {
             worth_less_paid_usd: &self.worth_less_paid_usd[kind.at() * table..][..table],
             paid_usd: &self.paid_usd,
+            levels: self.levels,
             stride: self.stride,
             clock: &self.clock,
             now: self.clock.place(now_s),
@@ -117,16 +144,41 @@ impl ValueTable {
         let first = self.clock.place(begin_s + block_s).slot;
         let last = self.clock.place(begin_s + block_s + SLOT_S).slot + 1;
         let most = |row: &[f64]| row.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let row = to.at() * self.stride;
-        let worth_usd =
-            &self.worth_less_paid_usd[kind.at() * self.vertiports * self.stride + row..];
-        most(&worth_usd[first..=last]) + most(&self.paid_usd[row + slot..][..2])
+        let place = kind.at() * self.vertiports + to.at();
+        let worth_usd = &self.worth_less_paid_usd[place * self.levels * self.stride..];
+        let paid_usd = &self.paid_usd[to.at() * self.stride + slot..][..2];
+        most(&worth_usd[first..=last]) + most(paid_usd)
     }
 
     /// The worth of being ready at `ready_s`, less the price of the stand from `now_s` until then.
     #[inline]
     pub(super) fn usd(&self, kind: TypeIx, place: VertiportIx, now_s: u32, ready_s: u32) -> f64 {
         self.worths_from(kind, now_s).usd(place, ready_s)
+    }
+
+    /// The worth of being ready at a level of charge, less the price of the stand from `now_s`
+    /// until then.
+    pub(super) fn at_level_usd(
+        &self,
+        kind: TypeIx,
+        place: VertiportIx,
+        now_s: u32,
+        ready: ReadyAt,
+    ) -> f64 {
+        self.worths_from(kind, now_s).at_level_usd(place, ready)
+    }
+
+    /// The worth of being ready at a level of charge.
+    pub(super) fn worth_at_level_usd(
+        &self,
+        kind: TypeIx,
+        place: VertiportIx,
+        ready: ReadyAt,
+    ) -> f64 {
+        if ready.time_s > self.clock.end_s {
+            return 0.0;
+        }
+        self.at_level_usd(kind, place, ready.time_s, ready)
     }
 
     pub(super) fn worth_usd(&self, kind: TypeIx, place: VertiportIx, time_s: u32) -> f64 {
@@ -155,6 +207,7 @@ fn between(row: &[f64], Place { slot, share }: Place) -> f64 {
 pub(super) struct WorthsFrom<'a> {
     worth_less_paid_usd: &'a [f64],
     paid_usd: &'a [f64],
+    levels: usize,
     stride: usize,
     clock: &'a Clock,
     now: Place,
@@ -164,13 +217,20 @@ impl WorthsFrom<'_> {
     /// The worth of being ready at `ready_s`, less the price of the stand from now until then.
     #[inline]
     pub(super) fn usd(&self, place: VertiportIx, ready_s: u32) -> f64 {
-        let row = place.at() * self.stride;
+        self.at_level_usd(place, ReadyAt { level: 0, time_s: ready_s })
+    }
+
+    /// The same with a level of charge.
+    #[inline]
+    pub(super) fn at_level_usd(&self, place: VertiportIx, ready: ReadyAt) -> f64 {
+        let row = (place.at() * self.levels + usize::from(ready.level)) * self.stride;
         let row_usd = &self.worth_less_paid_usd[row..row + self.stride];
-        let worth_usd = if ready_s > self.clock.end_s {
+        let worth_usd = if ready.time_s > self.clock.end_s {
             row_usd[self.clock.slots]
         } else {
-            between(row_usd, self.clock.place(ready_s))
+            between(row_usd, self.clock.place(ready.time_s))
         };
+        let row = place.at() * self.stride;
         worth_usd + between(&self.paid_usd[row..row + self.stride], self.now)
     }
 }
@@ -185,6 +245,7 @@ mod tests {
 
     use super::super::clock::Clock;
     use super::super::hops::Hops;
+    use super::super::levels::Levels;
     use super::ValueTable;
 
     #[test]
@@ -194,14 +255,15 @@ mod tests {
         let simulation = Simulation::new(day);
         let view = simulation.view();
         let clock = Clock::of(view);
-        let mut hops = Hops::of(view, &clock);
+        let levels = Levels::of(view);
+        let mut hops = Hops::of(view, &clock, &levels, ValueTable::stride(&clock));
         hops.load(view);
         let pairs = view.period_starts().len() * view.vertiports() * view.vertiports();
         hops.charge_all(0, &vec![1.5; pairs]);
         let stand_usd: Vec<f64> =
             (0..clock.slots * view.vertiports()).map(|at| (at % 7) as f64 / 3.0).collect();
         let tables = |arch: Arch| {
-            let mut values = ValueTable::of(view, &clock);
+            let mut values = ValueTable::of(view, &clock, &levels);
             values.arch = arch;
             values.pay(&stand_usd, 3);
             values.value(&hops, 3);

@@ -132,6 +132,13 @@ pub(crate) struct AircraftState {
     out_of_service: bool,
     /// When it is expected back in service, if that is known.
     out_until: Option<Moment>,
+    /// What its battery holds now, kWh; only on the ground, on days that charge as needed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    charge_kwh: Option<f64>,
+    /// What its battery will hold when it lands, kWh, if it was dispatched; only on days that
+    /// charge as needed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lands_with_kwh: Option<f64>,
     /// The flight that it was dispatched on, until it has landed.
     flight: Option<FlightState>,
 }
@@ -157,6 +164,10 @@ pub(crate) struct FlightState {
     to: String,
     /// When the decision was taken.
     decided: Moment,
+    /// When the battery suffices, so that it takes off unless it is delayed; only on days that
+    /// charge as needed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    takeoff: Option<Moment>,
     /// Passengers on board.
     passengers: u16,
 }
@@ -401,10 +412,13 @@ impl DayState {
                 needs_decision: now.needs_decision,
                 out_of_service: now.is_out,
                 out_until: now.out_until.map(Moment::from),
+                charge_kwh: now.charge_kwh,
+                lands_with_kwh: now.lands_with_kwh,
                 flight: live.flight(now.aircraft).map(|row| FlightState {
                     from: id(row.from),
                     to: id(row.to),
                     decided: row.time.into(),
+                    takeoff: now.lands_with_kwh.map(|_| row.takeoff.into()),
                     passengers: row.passengers,
                 }),
             })

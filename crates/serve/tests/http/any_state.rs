@@ -41,7 +41,7 @@ impl Draws {
         let period = self.below(day.periods.len());
         match self.below(12) {
             0..=2 => Report::Departed { aircraft, to: Some(one), passengers: None },
-            3..=5 => Report::Landed { aircraft, at: Some(one) },
+            3..=5 => Report::Landed { aircraft, at: Some(one), charge_kwh: None },
             6 => Report::Ready { aircraft },
             7 => Report::Delayed { aircraft, until: later },
             8 => Report::OutOfService { aircraft, until: Some(later) },

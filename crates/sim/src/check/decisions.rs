@@ -3,7 +3,8 @@
 use vertifleet_core::Scenario;
 
 use super::Rule;
-use super::event::Event;
+use super::event::{Event, clock};
+use super::expected::first_decision_s;
 use super::report::Findings;
 
 /// Follows each aircraft from decision to decision.
@@ -33,13 +34,19 @@ fn on_time(
     before: Option<&Event<'_>>,
     findings: &mut Findings,
 ) {
-    let (rule, due) = match before {
-        None => (Rule::FirstDecision, scenario.operations.start),
-        Some(before) => (Rule::DecisionTime, before.row.ready),
+    let stated_s = u64::from(event.row.time.seconds());
+    let (rule, due_s) = match before {
+        None => (Rule::FirstDecision, first_decision_s(scenario, event.aircraft, stated_s)),
+        Some(before) => (Rule::DecisionTime, before.row.ready.seconds().into()),
     };
-    if event.row.time != due {
+    if stated_s != due_s {
+        let start = scenario.operations.start;
+        let due = clock(due_s);
         findings.add_event(rule, event, || match before {
-            None => format!("operations start at {due}, when every aircraft decides first"),
+            None if due == start => {
+                format!("operations start at {due}, when every aircraft decides first")
+            }
+            None => format!("the battery is full at {due}, when the aircraft decides first"),
             Some(before) => format!("the aircraft is ready at {due} (row {})", before.number),
         });
     }
@@ -67,9 +74,15 @@ fn in_place(
 
 fn none_missing(scenario: &Scenario, latest: &[Option<&Event<'_>>], findings: &mut Findings) {
     let operations = &scenario.operations;
+    let end_s = u64::from(operations.end.seconds());
     for (aircraft, latest) in scenario.aircraft.iter().zip(latest) {
-        let due = latest.map_or(operations.start, |latest| latest.row.ready);
-        if due <= operations.end {
+        // Without a decision, an aircraft states that it is full only after the end of operations.
+        let due_s = latest.map_or_else(
+            || first_decision_s(scenario, aircraft, end_s + 1),
+            |latest| latest.row.ready.seconds().into(),
+        );
+        if due_s <= end_s {
+            let due = clock(due_s);
             findings.add(Rule::MissingDecision, None, due, Some(&aircraft.id), || match latest {
                 None => "the aircraft never decides".to_owned(),
                 Some(latest) => format!(

@@ -1,22 +1,25 @@
 //! The times, energy, revenue and costs of one flight as the rules determine them (Eq. 2-4, 7, 9,
-//! 13-15).
+//! 13-15), and when an aircraft decides first.
 
-use vertifleet_core::Scenario;
+use vertifleet_core::{Aircraft, Charging, Scenario};
 
+use super::charger::Charger;
 use super::event::{Event, period_of};
-
-/// Two ways to compute the same `f64` may differ by this share of it: far more than a handful of
-/// roundings, and far less than the precision of any input.
-const ROUNDING: f64 = 1e-12;
+use super::rounding::{nearest, whole_mwh};
 
 /// One flight as the rules determine it. Times are seconds since midnight.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Expected {
+    /// When the battery suffices; the flight is late by `delay_s` besides.
+    pub(super) takeoff_s: u64,
     pub(super) arrival_s: u64,
     pub(super) ready_s: u64,
+    /// When the turnaround is over, which is part of `ready_s`.
+    pub(super) turned_around_s: u64,
     /// The seconds by which a delayed take-off makes `arrival_s` later.
     pub(super) delay_s: u64,
-    /// Whether an outage, rather than charging, determines when the aircraft is ready.
+    /// Whether an outage, rather than charging or the turnaround, determines when the aircraft is
+    /// ready.
     pub(super) out_of_service: bool,
     pub(super) energy_kwh: f64,
     pub(super) revenue_usd: f64,
@@ -27,13 +30,13 @@ pub(super) struct Expected {
 
 impl Expected {
     /// Determines the flight of `event` from the time of its decision and the passengers on board
-    /// that its row states.
-    pub(super) fn of(scenario: &Scenario, event: &Event<'_>) -> Self {
+    /// that its row states. The battery suffices at `takeoff_s`, on most days at the decision.
+    pub(super) fn of(scenario: &Scenario, event: &Event<'_>, takeoff_s: u64) -> Self {
         let (operations, kind, row) = (&scenario.operations, event.kind, event.row);
         let distance_mi = scenario.distance_mi[event.pair()];
         let time_s = u64::from(row.time.seconds());
 
-        let airborne_s = time_s + u64::from(operations.takeoff_s);
+        let airborne_s = takeoff_s + u64::from(operations.takeoff_s);
         let landing_s = u64::from(operations.landing_s);
         let delay_s = delay_s(scenario, event);
         let on_the_way_s = airborne_s + delay_s + landing_s;
@@ -43,22 +46,29 @@ impl Expected {
 
         // A delayed flight waits on the ground, where the charger makes up for what the battery
         // loses.
-        let flight_h = (arrival_s - delay_s - time_s) as f64 / 3600.0;
+        let flight_h = (arrival_s - delay_s - takeoff_s) as f64 / 3600.0;
         let lost_kwh = kind.battery_kwh * kind.self_discharge_per_h * flight_h;
         let energy_kwh = kind.energy_kwh_per_mi * distance_mi + lost_kwh;
-        let stated_charge_s = u64::from(row.ready.seconds()).checked_sub(arrival_s);
-        let charge_s = nearest(3600.0 * energy_kwh / kind.charge_kw, stated_charge_s);
-
-        let full_again_s = arrival_s + charge_s;
+        let turned_around_s = arrival_s + u64::from(kind.turnaround_s);
+        let charged_s = match operations.charging {
+            Charging::AsNeeded => arrival_s,
+            Charging::ToFull => {
+                let stated_charge_s = u64::from(row.ready.seconds()).checked_sub(arrival_s);
+                arrival_s + Charger::of(kind, event.to).refill_s(energy_kwh, stated_charge_s)
+            }
+        };
+        let ready_again_s = charged_s.max(turned_around_s);
         let fit_again_s = fit_again_s(scenario, event, arrival_s);
 
         let passengers = f64::from(row.passengers);
         let fares_usd = scenario.fare_usd.in_period(period_of(scenario, time_s));
         Self {
+            takeoff_s,
             arrival_s,
-            ready_s: full_again_s.max(fit_again_s),
+            ready_s: ready_again_s.max(fit_again_s),
+            turned_around_s,
             delay_s,
-            out_of_service: fit_again_s > full_again_s,
+            out_of_service: fit_again_s > ready_again_s,
             energy_kwh,
             revenue_usd: passengers * fares_usd[event.pair()],
             passenger_cost_usd: passengers * scenario.passenger_cost_usd[event.pair()],
@@ -67,10 +77,36 @@ impl Expected {
         }
     }
 
-    /// Whether a battery of this capacity lasts for the flight. Both energies are rounded to whole
-    /// milliwatt-hours.
-    pub(super) fn fits(&self, battery_kwh: f64) -> bool {
-        (self.energy_kwh * 1e6).round() <= (battery_kwh * 1e6).round()
+    /// The flight's energy in whole milliwatt-hours, rounded as the row states it where that is in
+    /// doubt.
+    pub(super) fn energy_mwh(&self, event: &Event<'_>) -> u64 {
+        nearest(1e6 * self.energy_kwh, Some(whole_mwh(event.row.energy_kwh.clamp(0.0, 1e9))))
+    }
+
+    /// What the battery holds at take-off at least, in whole milliwatt-hours: the flight's energy
+    /// and the reserve, each rounded.
+    pub(super) fn needed_mwh(&self, event: &Event<'_>) -> u64 {
+        self.energy_mwh(event) + whole_mwh(event.kind.reserve_kwh)
+    }
+
+    /// Whether a full battery lasts for the flight (Eq. 12).
+    pub(super) fn within_range(&self, event: &Event<'_>) -> bool {
+        self.needed_mwh(event) <= whole_mwh(event.kind.battery_kwh)
+    }
+}
+
+/// When an aircraft decides first, in seconds since midnight. Where it is in doubt to which second
+/// its charging is rounded, `stated_s` is taken if it is one of the two.
+pub(super) fn first_decision_s(scenario: &Scenario, aircraft: &Aircraft, stated_s: u64) -> u64 {
+    let start_s = u64::from(scenario.operations.start.seconds());
+    match (scenario.operations.charging, aircraft.start_charge_kwh) {
+        (Charging::ToFull, Some(charge_kwh)) => {
+            let kind = &scenario.aircraft_types[aircraft.kind.at()];
+            let charger = Charger::of(kind, &scenario.vertiports[aircraft.at.at()]);
+            let lacking_kwh = kind.battery_kwh - charge_kwh;
+            start_s + charger.refill_s(lacking_kwh, stated_s.checked_sub(start_s))
+        }
+        (Charging::AsNeeded, _) | (_, None) => start_s,
     }
 }
 
@@ -91,55 +127,4 @@ fn fit_again_s(scenario: &Scenario, event: &Event<'_>, arrival_s: u64) -> u64 {
             && arrival_s < u64::from(outage.end.seconds())
     });
     own.map(|outage| outage.end.seconds().into()).max().unwrap_or(0)
-}
-
-/// A duration rounded to the nearest second, half a second up. Where the duration is half a second
-/// and `f64` does not show which side is nearer, `stated` is taken if it is one of the two
-/// neighbours.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "finite and never negative"
-)]
-fn nearest(seconds: f64, stated: Option<u64>) -> u64 {
-    let past_half = seconds.fract() - 0.5;
-    let in_doubt = past_half.abs() <= seconds * ROUNDING;
-    let down = seconds as u64;
-    match stated {
-        Some(stated) if in_doubt && (down..=down + 1).contains(&stated) => stated,
-        _ if past_half >= 0.0 => down + 1,
-        _ => down,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::nearest;
-
-    #[test]
-    fn durations_go_to_the_nearest_second_and_halves_go_up() {
-        for (seconds, rounded) in [
-            (0.0, 0),
-            (0.4, 0),
-            (0.499_999, 0),
-            (0.5, 1),
-            (1.6, 2),
-            (562.5, 563),
-            (3.6e9, 3_600_000_000),
-        ] {
-            assert_eq!(nearest(seconds, None), rounded, "{seconds}");
-        }
-    }
-
-    #[test]
-    fn only_at_half_a_second_may_a_schedule_choose_the_rounding() {
-        // 12.3 miles at 80 mph take half a second exactly, which in binary is on one side or the
-        // other.
-        let half = 3600.0 * 12.3 / 80.0;
-        assert_eq!(nearest(half, Some(553)), 553);
-        assert_eq!(nearest(half, Some(554)), 554);
-        assert_eq!(nearest(half, Some(555)), 554);
-        assert_eq!(nearest(553.499_999, Some(554)), 553);
-        assert_eq!(nearest(553.500_001, Some(553)), 554);
-    }
 }

@@ -1,6 +1,6 @@
 //! Holds (Eq. 8): the aircraft stays, and decides again after the hold time.
 
-use vertifleet_core::Scenario;
+use vertifleet_core::{Charging, Scenario};
 
 use super::Rule;
 use super::event::{Event, clock};
@@ -29,6 +29,11 @@ pub(super) fn check(scenario: &Scenario, event: &Event<'_>, findings: &mut Findi
         findings.add_event(Rule::HoldTime, event, || {
             let (arrival, ready, over) = (row.arrival, row.ready, clock(over));
             format!("arrives {arrival}, ready {ready}, but a hold from now on is over at {over}")
+        });
+    }
+    if scenario.operations.charging == Charging::AsNeeded && row.takeoff != row.time {
+        findings.add_event(Rule::TakeoffTime, event, || {
+            format!("takes off {}, but a hold states the time of its decision", row.takeoff)
         });
     }
 }

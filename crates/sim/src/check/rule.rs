@@ -36,7 +36,7 @@ rules! {
     OperatingHours = "operating-hours":
         "Decisions are taken from the start to the end of operations, both inclusive.",
     FirstDecision = "first-decision":
-        "Every aircraft first decides when operations start.",
+        "Every aircraft first decides when operations start, or on days that charge to full when its battery is full.",
     DecisionTime = "decision-time":
         "An aircraft decides again exactly when it is ready.",
     MissingDecision = "missing-decision":
@@ -50,11 +50,17 @@ rules! {
     ArrivalTime = "arrival-time":
         "A flight arrives after take-off, cruise to the nearest second, and landing (Eq. 7).",
     ReadyTime = "ready-time":
-        "An aircraft is ready when what the flight took is charged again, to the nearest second (Eq. 9, 14, 15).",
+        "An aircraft is ready after its turnaround and, on days that charge to full, when what the flight took is charged again, to the nearest second (Eq. 9, 14, 15).",
     TakeoffDelay = "takeoff-delay":
         "A flight arrives later by the delay of the vertiport and slot of the day in which it is decided.",
     OutOfService = "out-of-service":
         "An aircraft that lands while it is out of service is not ready before that is over.",
+    Charge = "charge":
+        "On days that charge as needed, the battery holds at each decision what was left at landing and charged since.",
+    TakeoffTime = "takeoff-time":
+        "On days that charge as needed, a flight takes off at the first second at which the battery suffices.",
+    TakeoffByEnd = "takeoff-by-end":
+        "No flight waits for its battery beyond the end of operations.",
     Corridor = "corridor":
         "A flight follows a corridor, if the scenario has any.",
     Closure = "closure":
@@ -62,7 +68,7 @@ rules! {
     Energy = "energy":
         "A flight takes the energy of its distance and what the battery loses on the way (Eq. 13).",
     Range = "range":
-        "A flight takes no more energy than the battery holds (Eq. 12).",
+        "A flight takes no more energy than the battery holds besides the reserve (Eq. 12).",
     Seats = "seats":
         "A flight carries no more passengers than its aircraft has seats (Eq. 11).",
     Demand = "demand":

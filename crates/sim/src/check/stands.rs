@@ -5,7 +5,7 @@
 //! U_i only changes at a take-off, from the vertiport that an aircraft leaves to the one that it
 //! flies to, so checking each take-off checks every instant. At one instant the aircraft listed
 //! first moves first, and the stand that it leaves is free for the next. With chargers, a hold
-//! moves an aircraft from its charger to a stand, if one is free.
+//! moves an aircraft from its charger to a stand, if one is free and the battery is full.
 
 use vertifleet_core::Scenario;
 
@@ -14,7 +14,7 @@ use super::event::Event;
 use super::report::Findings;
 
 /// The kind of place that an aircraft occupies while it waits.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Pool {
     /// On a stand, as all aircraft are at vertiports without chargers.
     Stand,
@@ -22,28 +22,53 @@ enum Pool {
     Charger,
 }
 
-/// Counts the aircraft of every vertiport through the day.
-pub(super) fn check(scenario: &Scenario, events: &[Event<'_>], findings: &mut Findings) {
-    let mut on_stands = vec![0_i64; scenario.vertiports.len()];
-    let mut on_chargers = on_stands.clone();
-    let mut pools = vec![Pool::Stand; scenario.aircraft.len()];
-    for aircraft in &scenario.aircraft {
-        on_stands[aircraft.at.at()] += 1;
+/// The aircraft of every vertiport.
+#[derive(Debug)]
+pub(super) struct Stands {
+    /// On stands of each vertiport.
+    standing: Vec<i64>,
+    /// On chargers of each vertiport, where these are counted apart, or in the air towards them.
+    charging: Vec<i64>,
+    pools: Vec<Pool>,
+}
+
+impl Stands {
+    pub(super) fn at_start(scenario: &Scenario) -> Self {
+        let mut standing = vec![0; scenario.vertiports.len()];
+        let charging = standing.clone();
+        for aircraft in &scenario.aircraft {
+            standing[aircraft.at.at()] += 1;
+        }
+        Self { standing, charging, pools: vec![Pool::Stand; scenario.aircraft.len()] }
     }
-    for event in events {
+
+    /// Moves the aircraft of an event, the next one in order, and judges both its places.
+    /// `is_full` says whether its battery is full.
+    pub(super) fn decides(&mut self, event: &Event<'_>, is_full: bool, findings: &mut Findings) {
+        if event.is_hold() {
+            self.holds(event, is_full);
+        } else {
+            self.flies(event, findings);
+        }
+    }
+
+    fn holds(&mut self, event: &Event<'_>, is_full: bool) {
+        let at = event.row.from.at();
+        let pool = &mut self.pools[event.row.aircraft.at()];
+        if is_full && *pool == Pool::Charger && self.standing[at] < i64::from(event.from.stands) {
+            *pool = Pool::Stand;
+            self.charging[at] -= 1;
+            self.standing[at] += 1;
+        }
+    }
+
+    fn flies(&mut self, event: &Event<'_>, findings: &mut Findings) {
+        let Self { standing, charging, pools } = self;
         let (from, to) = (event.row.from.at(), event.row.to.at());
         let pool = &mut pools[event.row.aircraft.at()];
-        if event.is_hold() {
-            if *pool == Pool::Charger && on_stands[from] < i64::from(event.from.stands) {
-                *pool = Pool::Stand;
-                on_chargers[from] -= 1;
-                on_stands[from] += 1;
-            }
-            continue;
-        }
         let (left, rule) = match pool {
-            Pool::Stand => (&mut on_stands[from], Rule::StandBound),
-            Pool::Charger => (&mut on_chargers[from], Rule::ChargerBound),
+            Pool::Stand => (&mut standing[from], Rule::StandBound),
+            Pool::Charger => (&mut charging[from], Rule::ChargerBound),
         };
         *left -= 1;
         if *left < 0 {
@@ -52,8 +77,8 @@ pub(super) fn check(scenario: &Scenario, events: &[Event<'_>], findings: &mut Fi
                 .add_event(rule, event, || format!("leaves {left} aircraft at {}", event.from.id));
         }
         let (there, limit, places, rule) = match event.to.chargers {
-            None => (&mut on_stands[to], event.to.stands, "stands", Rule::StandBound),
-            Some(chargers) => (&mut on_chargers[to], chargers, "chargers", Rule::ChargerBound),
+            None => (&mut standing[to], event.to.stands, "stands", Rule::StandBound),
+            Some(chargers) => (&mut charging[to], chargers, "chargers", Rule::ChargerBound),
         };
         *pool = if event.to.chargers.is_none() { Pool::Stand } else { Pool::Charger };
         *there += 1;

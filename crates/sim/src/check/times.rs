@@ -1,9 +1,10 @@
 //! A flight's times, with its delay and its aircraft's outages, and whether its battery lasts (Eq.
 //! 7, 9, 12, 14, 15).
 
-use vertifleet_core::Scenario;
+use vertifleet_core::{Charging, Scenario};
 
 use super::Rule;
+use super::charger::Charger;
 use super::event::{Event, clock};
 use super::expected::Expected;
 use super::report::Findings;
@@ -15,7 +16,25 @@ pub(super) fn check(
     expected: &Expected,
     findings: &mut Findings,
 ) {
-    let (row, kind) = (event.row, event.kind);
+    arrives(scenario, event, expected, findings);
+    is_ready(scenario, event, expected, findings);
+    if !expected.within_range(event) {
+        let kind = event.kind;
+        findings.add_event(Rule::Range, event, || {
+            let reserve = match kind.reserve_kwh {
+                0.0 => String::new(),
+                kwh => format!(" and leaves {kwh} in reserve"),
+            };
+            format!(
+                "the flight takes {} kWh{reserve}, but the battery holds {}",
+                expected.energy_kwh, kind.battery_kwh
+            )
+        });
+    }
+}
+
+fn arrives(scenario: &Scenario, event: &Event<'_>, expected: &Expected, findings: &mut Findings) {
+    let row = event.row;
     let distance_mi = scenario.distance_mi[event.pair()];
     let arrival_s = u64::from(row.arrival.seconds());
     if expected.delay_s > 0 && arrival_s + expected.delay_s == expected.arrival_s {
@@ -30,12 +49,16 @@ pub(super) fn check(
             format!(
                 "arrives {}, but {distance_mi} miles at {} mph and {} s of take-off and landing end at {}",
                 row.arrival,
-                kind.speed_mph,
+                event.kind.speed_mph,
                 scenario.operations.takeoff_s + scenario.operations.landing_s,
                 clock(expected.arrival_s)
             )
         });
     }
+}
+
+fn is_ready(scenario: &Scenario, event: &Event<'_>, expected: &Expected, findings: &mut Findings) {
+    let (row, kind) = (event.row, event.kind);
     let ready_s = u64::from(row.ready.seconds());
     if expected.out_of_service && ready_s < expected.ready_s {
         findings.add_event(Rule::OutOfService, event, || {
@@ -43,21 +66,23 @@ pub(super) fn check(
         });
     } else if ready_s != expected.ready_s {
         findings.add_event(Rule::ReadyTime, event, || {
+            let (from, to) = (clock(expected.arrival_s), clock(expected.ready_s));
+            if expected.out_of_service {
+                return format!("ready {}, but out of service until {to}", row.ready);
+            }
+            let as_needed = scenario.operations.charging == Charging::AsNeeded;
+            let turnaround_s = kind.turnaround_s;
+            if as_needed || (turnaround_s > 0 && expected.ready_s == expected.turned_around_s) {
+                return format!(
+                    "ready {}, but {turnaround_s} s of turnaround from {from} on end at {to}",
+                    row.ready
+                );
+            }
+            let charger = Charger::of(kind, event.to);
+            let up_to = if charger.has_curve() { "up to " } else { "" };
             format!(
-                "ready {}, but charging {} kWh at {} kW from {} on ends at {}",
-                row.ready,
-                expected.energy_kwh,
-                kind.charge_kw,
-                clock(expected.arrival_s),
-                clock(expected.ready_s)
-            )
-        });
-    }
-    if !expected.fits(kind.battery_kwh) {
-        findings.add_event(Rule::Range, event, || {
-            format!(
-                "the flight takes {} kWh, but the battery holds {}",
-                expected.energy_kwh, kind.battery_kwh
+                "ready {}, but charging {} kWh at {up_to}{} kW from {from} on ends at {to}",
+                row.ready, expected.energy_kwh, charger.kw
             )
         });
     }

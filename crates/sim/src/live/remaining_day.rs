@@ -1,6 +1,6 @@
 //! The rest of a live day as a scenario, for a bound on what it can still earn.
 
-use vertifleet_core::{Closure, Error, Matrix, Route, Scenario, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Closure, Error, Matrix, Route, Scenario, Time, VertiportIx};
 
 use super::LiveDay;
 
@@ -47,6 +47,8 @@ impl LiveDay {
         let mut there = vec![0_u16; size];
         for (at, aircraft) in day.aircraft.iter_mut().enumerate() {
             aircraft.at = self.known.place[at];
+            // `ready` contains what charging to full takes.
+            aircraft.start_charge_kwh = expected.charge_when_ready_kwh(AircraftIx::new(at));
             there[aircraft.at.at()] += 1;
         }
         for (vertiport, there) in VertiportIx::all(size).zip(there) {
@@ -63,8 +65,7 @@ impl LiveDay {
             }
         }
         day.disturbances.closures = self.closures_left();
-        let ready = day.aircraft.len();
-        let ready = vertifleet_core::AircraftIx::all(ready)
+        let ready = AircraftIx::all(day.aircraft.len())
             .map(|aircraft| expected.queue.ready_at(aircraft))
             .collect();
         Ok(Some(RemainingDay { day: day.check("what is left of the day")?, ready }))

@@ -36,6 +36,9 @@ pub enum Report {
         aircraft: AircraftIx,
         /// The vertiport where it is, if that is not the one that it was flying to.
         at: Option<VertiportIx>,
+        /// What its battery holds, kWh, if that is not what was expected. Days that charge to full
+        /// keep no charge, and refuse it.
+        charge_kwh: Option<f64>,
     },
     /// An aircraft on the ground is expected to be charged at a time.
     Charging {
@@ -216,7 +219,7 @@ pub enum Notice {
 }
 
 /// The reason why a report is refused. Nothing has changed then.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReportError {
     /// The decision breaks a rule.
     #[error(transparent)]
@@ -332,6 +335,19 @@ pub enum ReportError {
         passengers: u16,
         /// The seats.
         seats: u16,
+    },
+    /// A charge on a day that does not keep charges.
+    #[error("the charge of a battery cannot be reported on a day that charges to full")]
+    NoCharge,
+    /// More charge than the battery holds, or less than none.
+    #[error("the battery of aircraft {aircraft:?} holds 0 to {battery_kwh} kWh, not {charge_kwh}")]
+    ChargeOutOfRange {
+        /// The aircraft.
+        aircraft: String,
+        /// The charge that is reported, kWh.
+        charge_kwh: f64,
+        /// Capacity of the battery, kWh.
+        battery_kwh: f64,
     },
     /// The period is over.
     #[error("the period from {start} on is over: the day is at {now}")]

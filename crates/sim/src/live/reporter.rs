@@ -24,6 +24,8 @@ pub struct Reporter {
     entered: u64,
     /// The latest end of outage that was reported of each aircraft.
     out_until: Vec<Time>,
+    /// When each aircraft had landed before its latest decision, and with which charge.
+    landings: Vec<(Time, u64)>,
 }
 
 impl Reporter {
@@ -36,6 +38,7 @@ impl Reporter {
             reports: Vec::new(),
             entered: 0,
             out_until: vec![Time::default(); fleet],
+            landings: vec![(Time::default(), 0); fleet],
         };
         if let Some(forecast) = &scenario.disturbances.forecast {
             for (period, (actual, forecast)) in scenario.demand.iter().zip(forecast).enumerate() {
@@ -116,6 +119,9 @@ impl Reporter {
     /// # Errors
     /// The errors of [`Simulation::apply`].
     pub fn apply(&mut self, choice: VertiportIx) -> Result<(), Refusal> {
+        if let Some(decision) = self.day.next_decision() {
+            self.keep_landing(decision.aircraft);
+        }
         let row = self.day.apply(choice)?;
         self.enter(&row);
         Ok(())
@@ -139,6 +145,7 @@ impl Reporter {
         }
         let at = self.day.place[aircraft.at()];
         let decision = Decision { time, aircraft, at, index: self.day.ledger.decisions() };
+        self.keep_landing(aircraft);
         let row = match self.day.carry_out(&decision, to) {
             Ok(row) => row,
             Err(_) => self.day.fly(&decision, to),
@@ -163,7 +170,16 @@ impl Reporter {
         self.day.stands.leave(aircraft, self.day.place[aircraft.at()]);
         self.day.stands.take(aircraft, from, false);
         self.day.place[aircraft.at()] = from;
+        let (arrival, landed_mwh) = self.landings[aircraft.at()];
+        self.day.arrival[aircraft.at()] = arrival;
+        self.day.batteries.restore(aircraft, landed_mwh);
         self.set_ready(aircraft, ready);
+    }
+
+    /// Keeps the latest landing of an aircraft, in case its next decision is taken back.
+    fn keep_landing(&mut self, aircraft: AircraftIx) {
+        let arrival = self.day.arrival[aircraft.at()];
+        self.landings[aircraft.at()] = (arrival, self.day.batteries.kept_mwh(aircraft));
     }
 
     /// Sets when an aircraft is ready, where people have better information.
@@ -177,13 +193,13 @@ impl Reporter {
             let (aircraft, time) = (row.aircraft, row.time);
             let kind = self.day.scenario().aircraft[aircraft.at()].kind;
             let flight_s = self.day.legs().leg(kind, row.from, row.to).flight_s;
-            let late_s = row.arrival.since(time + flight_s);
+            let late_s = row.arrival.since(row.takeoff + flight_s);
             if late_s > 0 {
-                self.report(time, Report::Delayed { aircraft, until: time + late_s });
+                self.report(time, Report::Delayed { aircraft, until: row.takeoff + late_s });
             }
             let departed = Report::Departed { aircraft, to: None, passengers: None };
-            self.report(time + late_s, departed);
-            self.report(row.arrival, Report::Landed { aircraft, at: None });
+            self.report(row.takeoff + late_s, departed);
+            self.report(row.arrival, Report::Landed { aircraft, at: None, charge_kwh: None });
             self.report_outages(aircraft, time, row.arrival);
         }
     }

@@ -83,7 +83,11 @@ impl LiveDay {
             Report::Departed { aircraft, to, passengers } => {
                 self.depart(aircraft, time, (to, passengers), &mut notices)?;
             }
-            Report::Landed { aircraft, at } => self.land(aircraft, time, at, &mut notices)?,
+            Report::Landed { aircraft, at, charge_kwh } => {
+                self.check_charge(aircraft, charge_kwh)?;
+                self.land(aircraft, time, at, &mut notices)?;
+                self.correct_charge(aircraft, charge_kwh);
+            }
             Report::Charging { aircraft, ready } => self.charge(aircraft, ready, "be charging")?,
             Report::Ready { aircraft } => self.charge(aircraft, time, "be ready")?,
             Report::Delayed { aircraft, until } => self.delay(aircraft, until)?,
@@ -185,6 +189,7 @@ impl LiveDay {
         Before {
             charged: self.aircraft[aircraft.at()].charged,
             arrival: self.known.arrival[aircraft.at()],
+            landed_mwh: self.known.batteries.kept_mwh(aircraft),
             waited: self.known.stands.waits(aircraft),
         }
     }
@@ -199,7 +204,7 @@ impl LiveDay {
         let state = &mut self.aircraft[row.aircraft.at()];
         state.undoable = Some(flight);
         if row.from != row.to {
-            state.phase = Phase::SentOff { flight, departs: row.time };
+            state.phase = Phase::SentOff { flight, departs: row.takeoff };
             for (period, passengers) in self.decisions[flight].parties() {
                 let at = self.known.demand.at(period, row.from, row.to);
                 self.boarded[at] += u32::from(passengers);
@@ -219,6 +224,7 @@ impl LiveDay {
         self.known.stands.take(aircraft, row.from, before.waited);
         self.known.place[aircraft.at()] = row.from;
         self.known.arrival[aircraft.at()] = before.arrival;
+        self.known.batteries.restore(aircraft, before.landed_mwh);
         let state = &mut self.aircraft[aircraft.at()];
         (state.phase, state.undoable) = (Phase::Standing, None);
         self.set_charged(aircraft, before.charged);

@@ -9,7 +9,7 @@ use std::path::Path;
 use csv::ByteRecord;
 use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 
-use super::{COLUMNS, columns};
+use super::{CHARGE, FLIGHT_COST, columns};
 use crate::{Trace, TraceError, TraceRow};
 
 const MOST_BYTES: u64 = 256 << 20;
@@ -40,7 +40,7 @@ impl Trace {
 struct Reader<'a> {
     bytes: &'a [u8],
     origin: &'a str,
-    columns: &'static [&'static str],
+    columns: Vec<&'static str>,
     aircraft: HashMap<&'a [u8], AircraftIx>,
     vertiports: HashMap<&'a [u8], VertiportIx>,
 }
@@ -103,8 +103,10 @@ impl<'a> Reader<'a> {
                 found: record.len(),
             });
         }
+        let time = self.time(record, 0)?;
+        let optional = |name| self.columns.iter().position(|&column| column == name);
         Ok(TraceRow {
-            time: self.time(record, 0)?,
+            time,
             aircraft: self.id(record, 1, &self.aircraft, "aircraft")?,
             from: self.id(record, 2, &self.vertiports, "vertiports")?,
             to: self.id(record, 3, &self.vertiports, "vertiports")?,
@@ -115,9 +117,17 @@ impl<'a> Reader<'a> {
             energy_cost_usd: self.amount(record, 8)?,
             arrival: self.time(record, 9)?,
             ready: self.time(record, 10)?,
-            flight_cost_usd: match record.get(11) {
-                Some(_) => self.amount(record, 11)?,
+            flight_cost_usd: match optional(FLIGHT_COST) {
+                Some(column) => self.amount(record, column)?,
                 None => 0.0,
+            },
+            charge_kwh: match optional(CHARGE[0]) {
+                Some(column) => self.amount(record, column)?,
+                None => 0.0,
+            },
+            takeoff: match optional(CHARGE[1]) {
+                Some(column) => self.time(record, column)?,
+                None => time,
             },
         })
     }
@@ -132,7 +142,7 @@ impl<'a> Reader<'a> {
         known.get(&record[column]).copied().ok_or_else(|| TraceError::UnknownId {
             origin: self.origin.to_owned(),
             line: self.line(record),
-            column: COLUMNS[column],
+            column: self.columns[column],
             found: shortened(&String::from_utf8_lossy(&record[column])),
             list,
         })
@@ -163,7 +173,7 @@ impl<'a> Reader<'a> {
         std::str::from_utf8(bytes).ok().and_then(read).ok_or_else(|| TraceError::WrongValue {
             origin: self.origin.to_owned(),
             line: self.line(record),
-            column: COLUMNS[column],
+            column: self.columns[column],
             rule,
             found: shortened(&String::from_utf8_lossy(bytes)),
         })
@@ -192,8 +202,8 @@ fn shortened(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use vertifleet_core::{
-        Aircraft, AircraftType, Day, Disturbances, Matrix, Operations, Time, TypeIx, Vertiport,
-        VertiportIx,
+        Aircraft, AircraftType, Charging, Day, Disturbances, Matrix, Operations, Time, TypeIx,
+        Vertiport, VertiportIx,
     };
 
     use super::Reader;
@@ -221,6 +231,7 @@ mod tests {
                 landing_s: 60,
                 hold_s: 900,
                 passenger_wait_s: 0,
+                charging: Charging::ToFull,
             },
             vertiports: vec![Vertiport {
                 id: "V".to_owned(),
@@ -228,6 +239,7 @@ mod tests {
                 y_mi: 0.0,
                 stands: 1,
                 chargers: None,
+                charger_kw: None,
                 busy: false,
                 degrees: None,
                 stand_cost_usd: 0.0,
@@ -241,8 +253,16 @@ mod tests {
                 energy_kwh_per_mi: 1.0,
                 charge_kw: 60.0,
                 self_discharge_per_h: 0.0,
+                reserve_kwh: 0.0,
+                turnaround_s: 0,
+                charge_curve: None,
             }],
-            aircraft: vec![Aircraft { id: "A".to_owned(), kind: TypeIx(0), at: VertiportIx(0) }],
+            aircraft: vec![Aircraft {
+                id: "A".to_owned(),
+                kind: TypeIx(0),
+                at: VertiportIx(0),
+                start_charge_kwh: None,
+            }],
             distance_mi: Matrix::from_fn(1, |_, _| 0.0),
             corridors: None,
             fare_usd: Matrix::from_fn(1, |_, _| 0.0).into(),

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use vertifleet_core::{OutputKind, Scenario};
+use vertifleet_core::{Charging, OutputKind, Scenario};
 
 use super::columns;
 use crate::{Trace, TraceError, TraceRow};
@@ -13,7 +13,7 @@ impl Trace {
     pub const FILE: OutputKind = OutputKind {
         name: "trace",
         skipped: 0,
-        // On days with flight costs, one more column follows.
+        // On days with flight costs, and on days that charge as needed, more columns follow.
         opening: "time,aircraft,from,to,passengers,revenue,passenger_cost,energy_kwh,energy_cost,arrival,ready",
     };
 
@@ -42,8 +42,18 @@ impl Trace {
         let mut csv = csv::Writer::from_writer(to);
         csv.write_record(columns(scenario))?;
         let with_flight_costs = scenario.has_flight_costs();
+        let with_charge = scenario.operations.charging == Charging::AsNeeded;
         for row in &self.rows {
-            write_row(row, scenario, with_flight_costs, &mut csv)?;
+            write_row(row, scenario, &mut csv)?;
+            if with_flight_costs {
+                csv.write_field(row.flight_cost_usd.to_string())?;
+            }
+            if with_charge {
+                csv.write_field(row.charge_kwh.to_string())?;
+                csv.write_field(row.takeoff.to_string())?;
+            }
+            // An empty record after fields only ends the line.
+            csv.write_record(None::<&[u8]>)?;
         }
         csv.flush()
     }
@@ -52,7 +62,6 @@ impl Trace {
 fn write_row(
     row: &TraceRow,
     scenario: &Scenario,
-    with_flight_costs: bool,
     csv: &mut csv::Writer<impl Write>,
 ) -> io::Result<()> {
     csv.write_field(row.time.to_string())?;
@@ -66,11 +75,6 @@ fn write_row(
     }
     csv.write_field(row.arrival.to_string())?;
     csv.write_field(row.ready.to_string())?;
-    if with_flight_costs {
-        csv.write_field(row.flight_cost_usd.to_string())?;
-    }
-    // An empty record after fields only ends the line.
-    csv.write_record(None::<&[u8]>)?;
     Ok(())
 }
 

@@ -62,7 +62,12 @@ fn scenario(day: &Value, number_of_day: usize) -> Arc<Scenario> {
     let starts = list(&day["init"]).iter().map(vertiport);
     ours.aircraft = (1..)
         .zip(starts)
-        .map(|(number, at)| Aircraft { id: format!("A{number:02}"), kind: TypeIx(0), at })
+        .map(|(number, at)| Aircraft {
+            id: format!("A{number:02}"),
+            kind: TypeIx(0),
+            at,
+            start_charge_kwh: None,
+        })
         .collect();
     Arc::new(ours.check("authors' day").expect("a day within the rules"))
 }

@@ -4,8 +4,8 @@
 //! takes another minute. 6 % of 100 kWh are lost in an hour, which is 0.1 kWh in a minute.
 
 use vertifleet_core::{
-    Aircraft, AircraftIx, AircraftType, Day, Disturbances, Matrix, Operations, Time, TypeIx,
-    Vertiport, VertiportIx,
+    Aircraft, AircraftIx, AircraftType, Charging, Day, Disturbances, Matrix, Operations, Time,
+    TypeIx, Vertiport, VertiportIx,
 };
 use vertifleet_sim::{Trace, TraceRow};
 
@@ -17,13 +17,18 @@ pub(crate) fn day() -> Day {
         y_mi: 0.0,
         stands,
         chargers: None,
+        charger_kw: None,
         busy: false,
         degrees: None,
         stand_cost_usd: 0.0,
         charger_cost_usd: 0.0,
     };
-    let aircraft =
-        |id: &str, at| Aircraft { id: id.to_owned(), kind: TypeIx(0), at: VertiportIx(at) };
+    let aircraft = |id: &str, at| Aircraft {
+        id: id.to_owned(),
+        kind: TypeIx(0),
+        at: VertiportIx(at),
+        start_charge_kwh: None,
+    };
     Day {
         name: "by-hand".to_owned(),
         seed: 1,
@@ -34,6 +39,7 @@ pub(crate) fn day() -> Day {
             landing_s: 300,
             hold_s: 900,
             passenger_wait_s: 0,
+            charging: Charging::ToFull,
         },
         vertiports: vec![
             vertiport("V1", 0.0, 1),
@@ -48,6 +54,9 @@ pub(crate) fn day() -> Day {
             energy_kwh_per_mi: 1.0,
             charge_kw: 60.0,
             self_discharge_per_h: 0.06,
+            reserve_kwh: 0.0,
+            turnaround_s: 0,
+            charge_curve: None,
         }],
         aircraft: vec![aircraft("A1", 0), aircraft("A2", 1)],
         distance_mi: table([[0.0, 20.0, 40.0], [20.0, 0.0, 30.0], [40.01, 30.0, 0.0]]),
@@ -91,7 +100,8 @@ pub(crate) fn schedule() -> Trace {
     Trace { rows }
 }
 
-fn flight(
+/// A row of a day that charges to full.
+pub(crate) fn flight(
     (time_of_day, aircraft): (&str, u16),
     (from, to): (u16, u16),
     passengers: u16,
@@ -110,12 +120,14 @@ fn flight(
         energy_kwh,
         energy_cost_usd,
         flight_cost_usd: 0.0,
+        charge_kwh: 0.0,
+        takeoff: time(time_of_day),
         arrival: time(arrival),
         ready: time(ready),
     }
 }
 
-fn time(text: &str) -> Time {
+pub(crate) fn time(text: &str) -> Time {
     text.parse().expect("a time")
 }
 

@@ -5,7 +5,8 @@ use vertifleet_core::{AircraftIx, Closure, Day, Outage, Route, TakeoffDelays, Ti
 use vertifleet_sim::check::{Report, Rule, check};
 use vertifleet_sim::{Trace, TraceRow};
 
-use crate::check_day::{day, schedule};
+use crate::check_as_needed as as_needed;
+use crate::check_day::{day, schedule, time};
 
 fn judge(day: Day, trace: &Trace) -> Report {
     check(&day.check("by hand").expect("a day within the rules"), trace)
@@ -17,7 +18,7 @@ fn names(report: &Report) -> Vec<&'static str> {
 
 /// Moves a decision and the times that follow from it.
 fn shift(row: &mut TraceRow, seconds: u32) {
-    for time in [&mut row.time, &mut row.arrival, &mut row.ready] {
+    for time in [&mut row.time, &mut row.takeoff, &mut row.arrival, &mut row.ready] {
         *time = *time + seconds;
     }
 }
@@ -89,6 +90,11 @@ fn break_rule(rule: Rule, day: &mut Day, rows: &mut Vec<TraceRow>) -> bool {
         Rule::FlightCost => rows[2].flight_cost_usd = 0.01,
         Rule::StandBound => day.vertiports[2].stands = 1,
         Rule::ChargerBound => day.vertiports[2].chargers = Some(1),
+        Rule::Charge | Rule::TakeoffTime | Rule::TakeoffByEnd => {
+            *day = as_needed::day();
+            *rows = as_needed::schedule().rows;
+            break_rule_of_charge(rule, day, rows);
+        }
         Rule::Corridor => day.corridors = Some(vec![route(0, 2), route(2, 0)]),
         Rule::Closure => {
             let (start, end) = (rows[2].time, rows[2].time + 1);
@@ -108,6 +114,20 @@ fn break_rule(rule: Rule, day: &mut Day, rows: &mut Vec<TraceRow>) -> bool {
         }
     }
     true
+}
+
+/// Breaks one rule of days that charge as needed.
+fn break_rule_of_charge(rule: Rule, day: &mut Day, rows: &mut Vec<TraceRow>) {
+    match rule {
+        Rule::Charge => rows[2].charge_kwh += 2e-6,
+        Rule::TakeoffTime => rows[5].takeoff = rows[5].takeoff + 1,
+        _ => {
+            // Row 6 is decided in time, but its battery suffices a second too late. Row 7 is then
+            // decided after the end.
+            rows.truncate(6);
+            day.operations.end = time("07:38:59");
+        }
+    }
 }
 
 #[test]
@@ -222,7 +242,7 @@ fn the_report_reads_well() {
     trace.rows[3].ready = trace.rows[3].ready + 60;
     trace.rows.truncate(4);
     insta::assert_snapshot!(judge(day, &trace), @r#"
-    the schedule breaks 7 of 26 rules; findings: 7
+    the schedule breaks 7 of 29 rules; findings: 7
             1 x missing-decision An aircraft that is ready no later than the end of operations decides.
             1 x hold-time        A hold arrives when it is decided and is ready after the scenario's hold time (Eq. 8).
             1 x seats            A flight carries no more passengers than its aircraft has seats (Eq. 11).

@@ -8,11 +8,11 @@ use proptest::prelude::{
 };
 use proptest::sample::Index;
 use proptest::test_runner::Config;
-use vertifleet_core::{Scenario, Time, VertiportIx};
+use vertifleet_core::{Charging, Scenario, Time, VertiportIx};
 use vertifleet_sim::check::check;
 use vertifleet_sim::{DayTotals, Simulation, Trace, TraceRow};
 
-use vertifleet_testkit::extended_day;
+use vertifleet_testkit::energy_day;
 use vertifleet_testkit::small_day;
 
 /// Plays a day at random. Each draw chooses among the feasible vertiports; the draws are used
@@ -69,6 +69,7 @@ enum Edit {
     OnePassengerLess,
     Sooner(Clock),
     Later(Clock),
+    OtherCharge,
     OtherDestination(Index),
     Dropped,
     Doubled,
@@ -81,6 +82,8 @@ enum Clock {
     Decision,
     Arrival,
     Ready,
+    /// Only days that charge as needed have it.
+    TakeOff,
 }
 
 impl Clock {
@@ -89,17 +92,26 @@ impl Clock {
             Self::Decision => &mut row.time,
             Self::Arrival => &mut row.arrival,
             Self::Ready => &mut row.ready,
+            Self::TakeOff => &mut row.takeoff,
         }
     }
 }
 
 fn edits() -> impl Strategy<Value = Edit> {
-    let clocks = || prop_oneof![Just(Clock::Decision), Just(Clock::Arrival), Just(Clock::Ready)];
+    let clocks = || {
+        prop_oneof![
+            Just(Clock::Decision),
+            Just(Clock::Arrival),
+            Just(Clock::Ready),
+            Just(Clock::TakeOff)
+        ]
+    };
     prop_oneof![
         Just(Edit::OneMorePassenger),
         Just(Edit::OnePassengerLess),
         clocks().prop_map(Edit::Sooner),
         clocks().prop_map(Edit::Later),
+        Just(Edit::OtherCharge),
         any::<Index>().prop_map(Edit::OtherDestination),
         Just(Edit::Dropped),
         Just(Edit::Doubled),
@@ -109,8 +121,16 @@ fn edits() -> impl Strategy<Value = Edit> {
 
 /// Carries an edit out. Returns `false` if it would leave the schedule unchanged.
 fn carry_out(edit: Edit, day: &Scenario, rows: &mut Vec<TraceRow>, at: usize) -> bool {
+    let as_needed = day.operations.charging == Charging::AsNeeded;
     let row = &mut rows[at];
     match edit {
+        Edit::Sooner(Clock::TakeOff) | Edit::Later(Clock::TakeOff) | Edit::OtherCharge
+            if !as_needed =>
+        {
+            return false;
+        }
+        // Charges are known to a milliwatt-hour or two.
+        Edit::OtherCharge => row.charge_kwh += 1e-5,
         Edit::OneMorePassenger => row.passengers += 1,
         Edit::OnePassengerLess => match row.passengers.checked_sub(1) {
             Some(fewer) => row.passengers = fewer,
@@ -151,7 +171,7 @@ proptest! {
     #![proptest_config(Config::with_cases(200))]
 
     #[test]
-    fn what_the_simulator_plays_keeps_every_rule(day in extended_day(), draws in draws()) {
+    fn what_the_simulator_plays_keeps_every_rule(day in energy_day(), draws in draws()) {
         let (_, trace) = play(&day, &draws);
         let report = check(&day, &trace);
         prop_assert!(report.is_valid(), "{report}");
@@ -177,7 +197,7 @@ proptest! {
     }
 
     #[test]
-    fn both_accounts_of_a_day_agree(day in extended_day(), draws in draws()) {
+    fn both_accounts_of_a_day_agree(day in energy_day(), draws in draws()) {
         let (summary, trace) = play(&day, &draws);
         let totals = check(&day, &trace).totals;
         for (theirs, ours) in [
@@ -200,7 +220,7 @@ proptest! {
     }
 
     #[test]
-    fn a_simulated_trace_survives_its_file(day in small_day(), draws in draws()) {
+    fn a_simulated_trace_survives_its_file(day in energy_day(), draws in draws()) {
         let (_, trace) = play(&day, &draws);
         let read = Trace::from_csv(trace.to_csv(&day).as_bytes(), &day, "day.csv");
         prop_assert_eq!(read.expect("a written trace"), trace);
@@ -212,9 +232,13 @@ proptest! {
 
     #[test]
     fn one_edited_row_is_always_found(
-        day in extended_day(), draws in draws(), at in any::<Index>(), edit in edits()
+        day in energy_day(), draws in draws(), at in any::<Index>(), edit in edits()
     ) {
         let (_, mut trace) = play(&day, &draws);
+        // On a few days every aircraft is full too late to decide.
+        if trace.rows.is_empty() {
+            return Ok(());
+        }
         let at = at.index(trace.rows.len());
         if carry_out(edit, &day, &mut trace.rows, at) {
             prop_assert!(!check(&day, &trace).is_valid(), "{edit:?} in row {at} was not found");

@@ -7,6 +7,7 @@ use vertifleet_core::{AircraftIx, Coded, Scenario, Time, VertiportIx};
 use vertifleet_sim::check::check;
 use vertifleet_sim::{Trace, TraceError, TraceRow};
 
+use crate::check_as_needed as as_needed;
 use crate::check_day::{day, schedule};
 
 fn scenario() -> Scenario {
@@ -166,8 +167,9 @@ fn any_row() -> impl Strategy<Value = TraceRow> {
             .prop_map(Time::from_seconds)
     };
     let amounts = prop::array::uniform4(any::<f64>());
-    (time(), index(), index(), index(), any::<u16>(), amounts, time(), time()).prop_map(
-        |(time, aircraft, from, to, passengers, amounts, arrival, ready)| TraceRow {
+    let times = (time(), time(), time(), time());
+    (times, index(), index(), index(), any::<u16>(), amounts).prop_map(
+        |((time, takeoff, arrival, ready), aircraft, from, to, passengers, amounts)| TraceRow {
             time,
             aircraft: AircraftIx(aircraft),
             from: VertiportIx(from),
@@ -178,6 +180,8 @@ fn any_row() -> impl Strategy<Value = TraceRow> {
             energy_kwh: amounts[2],
             energy_cost_usd: amounts[3],
             flight_cost_usd: amounts[0],
+            charge_kwh: amounts[3],
+            takeoff,
             arrival,
             ready,
         },
@@ -201,6 +205,8 @@ fn storable_row() -> impl Strategy<Value = TraceRow> {
             energy_kwh: amounts.2,
             energy_cost_usd: amounts.3,
             flight_cost_usd: 0.0,
+            charge_kwh: 0.0,
+            takeoff: times.0,
             arrival: times.1,
             ready: times.2,
             ..row
@@ -243,7 +249,10 @@ proptest! {
 
     #[test]
     fn no_rows_panic_the_checker(rows in prop::collection::vec(any_row(), 0..12)) {
-        let report = check(&scenario(), &Trace { rows });
-        prop_assert_eq!(report.is_valid(), report.findings.is_empty());
+        let trace = Trace { rows };
+        for day in [day(), as_needed::day(), as_needed::with_taper(as_needed::day())] {
+            let report = check(&day.check("day").expect("a day within the rules"), &trace);
+            prop_assert_eq!(report.is_valid(), report.findings.is_empty());
+        }
     }
 }

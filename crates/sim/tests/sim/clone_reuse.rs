@@ -6,7 +6,7 @@ use allocation_counter::measure;
 use proptest::prelude::{ProptestConfig, any, prop, prop_assert, prop_assert_eq, proptest};
 use vertifleet_sim::{Imagined, Simulation};
 
-use vertifleet_testkit::extended_day;
+use vertifleet_testkit::energy_day;
 
 /// Plays an imagined day to its end, with choices made by a fixed rule.
 fn play_on(imagined: &mut Imagined) -> f64 {
@@ -23,7 +23,7 @@ proptest! {
 
     #[test]
     fn a_second_imagined_course_takes_no_memory(
-        day in extended_day(), another in extended_day(),
+        day in energy_day(), another in energy_day(),
         draws in prop::collection::vec(any::<u32>(), 1..20)
     ) {
         let mut room = None;

@@ -9,7 +9,7 @@ use vertifleet_core::{AircraftIx, Closure, Outage, Route, Scenario, Time, Vertip
 use vertifleet_sim::Simulation;
 
 use crate::shown::shown;
-use vertifleet_testkit::extended_day;
+use vertifleet_testkit::energy_day;
 
 #[test]
 fn no_method_of_the_view_is_forgotten_here() {
@@ -110,7 +110,7 @@ proptest! {
 
     #[test]
     fn a_view_does_not_change_when_the_future_does(
-        day in extended_day(), draws in prop::collection::vec(any::<u32>(), 1..20),
+        day in energy_day(), draws in prop::collection::vec(any::<u32>(), 1..20),
         count in 1_usize..40, change in 1_u32..100_000
     ) {
         let mut known = Scenario::clone(&day).into_day();
@@ -126,7 +126,7 @@ proptest! {
 
     #[test]
     fn an_imagined_flight_is_as_late_as_the_latest_that_left_in_its_quarter_of_an_hour(
-        day in extended_day(), draws in prop::collection::vec(any::<u32>(), 1..20)
+        day in energy_day(), draws in prop::collection::vec(any::<u32>(), 1..20)
     ) {
         let mut simulation = Simulation::new(Arc::clone(&day));
         let mut left = BTreeMap::new();
@@ -140,7 +140,7 @@ proptest! {
             let imagined = view.imagined_in(&mut room).apply(choice).expect("feasible");
             let row = simulation.apply(choice).expect("feasible");
             if row.to != row.from {
-                let on_time = row.time + flight_s;
+                let on_time = row.takeoff + flight_s;
                 let quarter = row.time.seconds() / 900;
                 let known = left.insert(row.from, (quarter, row.arrival.since(on_time)));
                 let expected_s = match known {
@@ -154,7 +154,7 @@ proptest! {
 
     #[test]
     fn a_day_goes_as_it_is_imagined_if_all_that_happens_is_known(
-        day in extended_day(), draws in prop::collection::vec(any::<u32>(), 1..20)
+        day in energy_day(), draws in prop::collection::vec(any::<u32>(), 1..20)
     ) {
         let mut day = Scenario::clone(&day).into_day();
         let mut closures = std::mem::take(&mut day.disturbances).closures;

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use proptest::prelude::{any, prop, prop_assert, prop_assert_eq, proptest};
 use vertifleet_core::{AircraftIx, Matrix, Scenario, Vertiport, VertiportIx};
-use vertifleet_sim::{Refusal, Simulation, TraceRow};
+use vertifleet_sim::{Refusal, Simulation, TraceRow, first_decision};
 
-use vertifleet_testkit::extended_day;
+use vertifleet_testkit::energy_day;
 
 /// Plays a day, with each draw choosing among the feasible vertiports; the draws are used
 /// cyclically. `each` is called after every step.
@@ -34,7 +34,7 @@ fn draws() -> impl proptest::strategy::Strategy<Value = Vec<u32>> {
 
 proptest! {
     #[test]
-    fn stands_are_never_overbooked_and_no_aircraft_is_lost(day in extended_day(), draws in draws()) {
+    fn stands_are_never_overbooked_and_no_aircraft_is_lost(day in energy_day(), draws in draws()) {
         play(&day, &draws, |simulation, _| {
             let view = simulation.view();
             let mut counted = vec![0; view.vertiports()];
@@ -51,13 +51,18 @@ proptest! {
     }
 
     #[test]
-    fn decisions_come_in_order_and_within_operations(day in extended_day(), draws in draws()) {
+    fn decisions_come_in_order_and_within_operations(day in energy_day(), draws in draws()) {
         let (_, rows) = play(&day, &draws, |_, _| ());
         prop_assert!(rows.iter().all(|row| (day.operations.start..=day.operations.end).contains(&row.time)));
         prop_assert!(rows.is_sorted_by_key(|row| (row.time, row.aircraft)));
         for aircraft in AircraftIx::all(day.aircraft.len()) {
             let own: Vec<&TraceRow> = rows.iter().filter(|row| row.aircraft == aircraft).collect();
-            prop_assert_eq!(own[0].time, day.operations.start);
+            let due = first_decision(&day, aircraft);
+            let Some(first) = own.first() else {
+                prop_assert!(due > day.operations.end, "it is full too late");
+                continue;
+            };
+            prop_assert_eq!(first.time, due);
             prop_assert_eq!(own[0].from, day.aircraft[aircraft.at()].at);
             for pair in own.windows(2) {
                 prop_assert_eq!((pair[1].time, pair[1].from), (pair[0].ready, pair[0].to));
@@ -67,7 +72,7 @@ proptest! {
     }
 
     #[test]
-    fn batteries_and_cabins_hold_what_they_are_asked_to(day in extended_day(), draws in draws()) {
+    fn batteries_and_cabins_hold_what_they_are_asked_to(day in energy_day(), draws in draws()) {
         let (_, rows) = play(&day, &draws, |_, _| ());
         let pairs = day.vertiports.len().pow(2);
         let mut carried = vec![vec![0_u32; pairs]; day.periods.len()];
@@ -76,6 +81,8 @@ proptest! {
         for row in &rows {
             let kind = &day.aircraft_types[day.aircraft[row.aircraft.at()].kind.at()];
             prop_assert!(row.energy_kwh >= 0.0 && kind.lasts_for(row.energy_kwh));
+            prop_assert!((0.0..=kind.battery_kwh).contains(&row.charge_kwh));
+            prop_assert!((row.time..=day.operations.end).contains(&row.takeoff));
             prop_assert!(row.passengers <= kind.seats);
             let pair = row.from.at() * day.vertiports.len() + row.to.at();
             let period = day.period_at(row.time);
@@ -97,7 +104,7 @@ proptest! {
     }
 
     #[test]
-    fn the_ledger_adds_up(day in extended_day(), draws in draws()) {
+    fn the_ledger_adds_up(day in energy_day(), draws in draws()) {
         let (simulation, rows) = play(&day, &draws, |_, _| ());
         let summary = simulation.totals();
         let sum = |part: fn(&TraceRow) -> f64| rows.iter().map(part).sum::<f64>();
@@ -131,7 +138,7 @@ proptest! {
     }
 
     #[test]
-    fn rewards_paid_by_the_flight_sum_to_the_reward_of_the_day(day in extended_day(), draws in draws()) {
+    fn rewards_paid_by_the_flight_sum_to_the_reward_of_the_day(day in energy_day(), draws in draws()) {
         let (simulation, rows) = play(&day, &draws, |_, _| ());
         if simulation.potential_usd() > 0.0 {
             let flights: f64 = rows.iter().map(TraceRow::profit_usd).sum();
@@ -141,7 +148,7 @@ proptest! {
     }
 
     #[test]
-    fn the_same_decisions_leave_the_same_trace(day in extended_day(), draws in draws()) {
+    fn the_same_decisions_leave_the_same_trace(day in energy_day(), draws in draws()) {
         let (_, once) = play(&day, &draws, |_, _| ());
         let again = std::thread::scope(|scope| {
             let others: Vec<_> =
@@ -152,7 +159,7 @@ proptest! {
     }
 
     #[test]
-    fn a_refused_decision_changes_nothing(day in extended_day(), draws in draws(), odd in any::<u16>()) {
+    fn a_refused_decision_changes_nothing(day in energy_day(), draws in draws(), odd in any::<u16>()) {
         play(&day, &draws, |simulation, _| {
             let Some(decision) = simulation.next_decision() else { return };
             let mask = simulation.view().feasible(&decision);
@@ -174,7 +181,7 @@ proptest! {
     }
 
     #[test]
-    fn after_the_day_every_decision_is_refused(day in extended_day(), draws in draws()) {
+    fn after_the_day_every_decision_is_refused(day in energy_day(), draws in draws()) {
         let (mut simulation, _) = play(&day, &draws, |_, _| ());
         prop_assert_eq!(simulation.apply(VertiportIx(0)), Err(Refusal::DayOver));
     }

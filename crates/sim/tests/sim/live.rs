@@ -11,7 +11,7 @@ use proptest::prelude::{
 use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
 use vertifleet_sim::Simulation;
 use vertifleet_sim::live::{Booking, LiveDay, Phase, Report, ReportError, Reporter, Routes};
-use vertifleet_testkit::{extended_day, paper_day};
+use vertifleet_testkit::{energy_day, paper_day};
 
 /// Plays a day by a rule and reports it to a live day. At every decision both show the same.
 fn simulated_and_live(day: &Arc<Scenario>, draws: &[u32]) -> (Simulation, LiveDay) {
@@ -49,7 +49,7 @@ proptest! {
 
     #[test]
     fn a_live_day_with_the_reports_of_a_simulated_day_is_that_day(
-        day in extended_day(), draws in prop::collection::vec(any::<u32>(), 30)
+        day in energy_day(), draws in prop::collection::vec(any::<u32>(), 30)
     ) {
         let (simulation, mut live) = simulated_and_live(&day, &draws);
         prop_assert_eq!(live.totals(), simulation.totals());
@@ -106,8 +106,8 @@ fn any_report() -> impl Strategy<Value = Report> {
         2 => aircraft().prop_map(|aircraft| Report::Undone { aircraft }),
         4 => (aircraft(), prop::option::of(vertiport()), prop::option::of(0..6_u16))
             .prop_map(|(aircraft, to, passengers)| Report::Departed { aircraft, to, passengers }),
-        4 => (aircraft(), prop::option::of(vertiport()))
-            .prop_map(|(aircraft, at)| Report::Landed { aircraft, at }),
+        4 => (aircraft(), prop::option::of(vertiport()), prop::option::of(-10.0..120.0))
+            .prop_map(|(aircraft, at, charge_kwh)| Report::Landed { aircraft, at, charge_kwh }),
         1 => (aircraft(), time()).prop_map(|(aircraft, ready)| Report::Charging { aircraft, ready }),
         2 => aircraft().prop_map(|aircraft| Report::Ready { aircraft }),
         1 => (aircraft(), time()).prop_map(|(aircraft, until)| Report::Delayed { aircraft, until }),
@@ -174,7 +174,7 @@ proptest! {
 
     #[test]
     fn a_live_day_stays_sound_after_any_reports(
-        day in extended_day(),
+        day in energy_day(),
         reports in prop::collection::vec((0..900_u32, any_report()), 1..60),
     ) {
         let mut live = LiveDay::new(Arc::clone(&day));
@@ -204,7 +204,7 @@ proptest! {
 
     #[test]
     fn an_undone_decision_leaves_no_trace(
-        day in extended_day(),
+        day in energy_day(),
         reports in prop::collection::vec((0..900_u32, any_report()), 0..40),
         choice in any::<u32>(),
     ) {

@@ -1,6 +1,8 @@
 //! The guarantees of the simulator and of the checker of schedules.
 
 mod authors_days;
+mod check_as_needed;
+mod check_charging;
 mod check_day;
 mod check_rules;
 mod check_simulated;

@@ -29,8 +29,18 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
     for aircraft in AircraftIx::all(view.places().len()) {
         let kind = view.kind(aircraft);
         let times = (view.ready_at(aircraft), view.arrives_at(aircraft));
-        let of_it = (view.aircraft_id(aircraft), times, view.aircraft_type(kind));
+        let charge_kwh = view.charge_kwh(aircraft);
+        if view.charges_as_needed() {
+            assert_eq!(view.charge_mwh(aircraft) as f64 / 1e6, charge_kwh);
+        }
+        let of_it = (view.aircraft_id(aircraft), times, view.aircraft_type(kind), charge_kwh);
         shown.push(format!("{of_it:?}"));
+    }
+    if view.charges_as_needed() {
+        shown.push(format!("{}", view.charge_mwh_at(decision)));
+    }
+    for to in VertiportIx::all(view.vertiports()) {
+        shown.push(format!("{:?}", view.outcome(decision, to)));
     }
     for from in VertiportIx::all(view.vertiports()) {
         shown.push(format!("{:?} {:?}", view.stands(from), (view.parked(from), view.closed(from))));
@@ -43,6 +53,9 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
                 view.legs_from(kind, from),
                 view.within_range(kind, from)
             ));
+            if view.charges_as_needed() {
+                shown.push(format!("{:?}", view.charge_rate(kind, from)));
+            }
             let departures = view.departures(decision.time + 3600, kind, from);
             for to in VertiportIx::all(view.vertiports()) {
                 let profit = view.flight_profit_usd(decision.time + 3600, kind, (from, to), 3);

@@ -5,8 +5,8 @@
 use std::sync::Arc;
 
 use vertifleet_core::{
-    Aircraft, AircraftIx, AircraftType, Day, Disturbances, Fares, Matrix, Operations, Scenario,
-    Time, TypeIx, Vertiport, VertiportIx,
+    Aircraft, AircraftIx, AircraftType, Charging, Day, Disturbances, Fares, Matrix, Operations,
+    Scenario, Time, TypeIx, Vertiport, VertiportIx,
 };
 use vertifleet_sim::check::check;
 use vertifleet_sim::live::{Booking, LiveDay, Report, ReportError};
@@ -27,6 +27,7 @@ fn vertiport(id: &str) -> Vertiport {
         y_mi: 0.0,
         stands: 9,
         chargers: None,
+        charger_kw: None,
         busy: false,
         degrees: None,
         stand_cost_usd: 0.0,
@@ -52,6 +53,7 @@ fn day(passenger_wait_s: u32) -> Arc<Scenario> {
             landing_s: 60,
             hold_s: 60,
             passenger_wait_s,
+            charging: Charging::ToFull,
         },
         vertiports: vec![vertiport("A"), vertiport("B")],
         aircraft_types: vec![AircraftType {
@@ -62,9 +64,17 @@ fn day(passenger_wait_s: u32) -> Arc<Scenario> {
             energy_kwh_per_mi: 1.0,
             charge_kw: 60.0,
             self_discharge_per_h: 0.0,
+            reserve_kwh: 0.0,
+            turnaround_s: 0,
+            charge_curve: None,
         }],
         aircraft: (1..=8)
-            .map(|number| Aircraft { id: format!("A{number}"), kind: TypeIx::new(0), at: A })
+            .map(|number| Aircraft {
+                id: format!("A{number}"),
+                kind: TypeIx::new(0),
+                at: A,
+                start_charge_kwh: None,
+            })
             .collect(),
         distance_mi: usd(20.0),
         corridors: None,

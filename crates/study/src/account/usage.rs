@@ -122,8 +122,8 @@ pub(super) fn of_aircraft(day: &Scenario, rows: &[TraceRow]) -> Vec<AircraftUse>
         let one = &mut uses[at as usize];
         one.flights += 1;
         one.repositioning_flights += u32::from(row.passengers == 0);
-        one.flying_h += within_h(row.time, row.arrival);
-        one.charging_h += within_h(row.arrival, charged.at(row));
+        one.flying_h += within_h(row.takeoff, row.arrival);
+        one.charging_h += within_h(row.time, row.takeoff) + within_h(row.arrival, charged.at(row));
         one.out_of_service_h += within_h(charged.at(row), row.ready);
         one.waiting_h -= within_h(row.time, row.ready);
         one.profit_usd += row.profit_usd();

@@ -114,7 +114,7 @@ fn with_aircraft(day: &Scenario, kind: TypeIx) -> Option<(String, Effect, Day)> 
     let id = id.into_iter().find(is_new).expect("one of endlessly many ids is free");
     (free(at) > 0).then(|| {
         let mut changed = day.clone().into_day();
-        changed.aircraft.push(Aircraft { id, kind, at });
+        changed.aircraft.push(Aircraft { id, kind, at, start_charge_kwh: None });
         let words = format!("one more {}", day.aircraft_types[kind.at()].id);
         (words, Effect::Aircraft(kind, at), changed)
     })

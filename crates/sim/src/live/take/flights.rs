@@ -48,6 +48,7 @@ impl LiveDay {
         }
         self.note_delay(flight, time);
         if time != departs {
+            self.set_takeoff(flight, time);
             let flight_s = self.decisions[flight].row.arrival.since(departs);
             self.set_arrival(aircraft, flight, time + flight_s);
         }
@@ -170,6 +171,7 @@ impl LiveDay {
                     aircraft: self.id(aircraft),
                     at: self.vertiport_id(at),
                 });
+                self.keep_charge(aircraft, time);
                 self.move_to(aircraft, at);
                 self.known.arrival[aircraft.at()] = time;
                 self.set_charged(aircraft, state.charged.max(time));
@@ -212,7 +214,13 @@ impl LiveDay {
             let leg = *self.known.legs.leg(kind, row.from, at);
             let row = &mut self.decisions[flight].row;
             row.energy_kwh = leg.energy_kwh;
-            row.ready = row.arrival + leg.charge_s;
+            row.ready = row.arrival + leg.ground_s;
+            let (Phase::SentOff { departs: takeoff, .. }
+            | Phase::InTheAir { departed: takeoff, .. }) = self.aircraft[aircraft.at()].phase
+            else {
+                unreachable!("a flight is diverted while it is on its way");
+            };
+            self.set_takeoff(flight, takeoff);
         }
         self.set_arrival(aircraft, flight, row.arrival);
     }
@@ -248,6 +256,7 @@ impl LiveDay {
                 self.note_delay(flight, until);
                 let flight_s = self.decisions[flight].row.arrival.since(departs);
                 self.aircraft[aircraft.at()].phase = Phase::SentOff { flight, departs: until };
+                self.set_takeoff(flight, until);
                 self.set_arrival(aircraft, flight, until + flight_s);
             }
             Phase::InTheAir { flight, .. } => self.set_arrival(aircraft, flight, until),
@@ -257,8 +266,8 @@ impl LiveDay {
 
     /// Takes note of how late a flight departs, by which others are expected to.
     fn note_delay(&mut self, flight: usize, departs: Time) {
-        let TraceRow { time, from, .. } = self.decisions[flight].row;
+        let TraceRow { time, from, takeoff, .. } = self.decisions[flight].row;
         let vertiports = self.scenario().vertiports.len();
-        self.known.delays.note(time, from, departs.since(time), vertiports);
+        self.known.delays.note(time, from, departs.since(takeoff), vertiports);
     }
 }

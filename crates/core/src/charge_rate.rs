@@ -1,0 +1,304 @@
+//! How a battery fills over time: the power of a type's curve, limited by its charger and its
+//! vertiport, integrated over the charge (page Model, section Energy).
+//!
+//! Between two points the power is linear in the charge, so the charge is an exponential function
+//! of time: from dc/dt = p + k (c - c0) follows c = c0 + p (e^(k t) - 1) / k. Exponentials and
+//! logarithms go through the `libm` crate, because the results of the system's library depend on
+//! the machine.
+
+use crate::{AircraftType, CurvePoint, Vertiport};
+
+/// Milliwatt-hours a second that one kilowatt charges.
+const MWH_A_SECOND: f64 = 1e6 / 3600.0;
+
+/// An energy in whole milliwatt-hours, to the nearest.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "energies of a checked day are never negative and below 2^53 mWh"
+)]
+pub fn whole_mwh(kwh: f64) -> u64 {
+    (1e6 * kwh).round() as u64
+}
+
+/// How fast the batteries of one aircraft type charge at one vertiport.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChargeRate {
+    /// In the order of charge, the first from an empty battery.
+    segments: Vec<Segment>,
+    /// Capacity of the battery, mWh.
+    full_mwh: u64,
+    /// Seconds from empty to full.
+    full_s: f64,
+}
+
+/// A range of charges in which the power is linear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Segment {
+    /// The charge where it begins, mWh.
+    from_mwh: f64,
+    /// The seconds that an empty battery charges until then.
+    from_s: f64,
+    /// Power there, mWh a second.
+    power: f64,
+    /// Change of the power with the charge, per second; 0 where it is constant.
+    slope: f64,
+}
+
+impl Segment {
+    fn seconds_to(&self, mwh: f64) -> f64 {
+        let more = mwh - self.from_mwh;
+        if self.slope == 0.0 {
+            return self.from_s + more / self.power;
+        }
+        self.from_s + libm::log1p(self.slope * more / self.power) / self.slope
+    }
+
+    fn mwh_at(&self, seconds: f64) -> f64 {
+        let more_s = seconds - self.from_s;
+        if self.slope == 0.0 {
+            return self.from_mwh + more_s * self.power;
+        }
+        self.from_mwh + self.power * libm::expm1(self.slope * more_s) / self.slope
+    }
+}
+
+impl ChargeRate {
+    /// The rate of a type at a vertiport, both of a checked day.
+    pub fn of(kind: &AircraftType, vertiport: &Vertiport) -> Self {
+        let most_kw = kind.charge_kw.min(vertiport.charger_kw.unwrap_or(f64::INFINITY));
+        let constant =
+            [CurvePoint { charge: 0.0, kw: most_kw }, CurvePoint { charge: 1.0, kw: most_kw }];
+        let curve = kind.charge_curve.as_ref().map_or(&constant[..], |curve| curve.points());
+        let full_mwh = whole_mwh(kind.battery_kwh);
+        let mut rate = Self { segments: Vec::new(), full_mwh, full_s: 0.0 };
+        for points in limited(curve, most_kw).windows(2) {
+            rate.push(points[0], points[1]);
+        }
+        rate
+    }
+
+    /// Adds the range between two points, which begins where the last one ends.
+    fn push(&mut self, from: CurvePoint, to: CurvePoint) {
+        let full = self.full_mwh as f64;
+        let power = from.kw * MWH_A_SECOND;
+        let width = (to.charge - from.charge) * full;
+        // A curve may reach the limit in one of its points.
+        if width <= 0.0 {
+            return;
+        }
+        let slope = (to.kw * MWH_A_SECOND - power) / width;
+        let segment = Segment { from_mwh: from.charge * full, from_s: self.full_s, power, slope };
+        self.full_s = segment.seconds_to(to.charge * full);
+        self.segments.push(segment);
+    }
+
+    /// Capacity of the battery, mWh.
+    pub fn full_mwh(&self) -> u64 {
+        self.full_mwh
+    }
+
+    /// The seconds that an empty battery takes to reach a charge, mWh.
+    fn seconds_to(&self, mwh: f64) -> f64 {
+        let later = self.segments.partition_point(|segment| segment.from_mwh <= mwh);
+        self.segments[later.saturating_sub(1)].seconds_to(mwh)
+    }
+
+    /// Seconds of charging from one charge to another that is not lower, kWh.
+    pub fn seconds_between(&self, from_kwh: f64, to_kwh: f64) -> f64 {
+        self.seconds_to(1e6 * to_kwh) - self.seconds_to(1e6 * from_kwh)
+    }
+
+    /// The most that is charged in a second, mWh.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most 100,000 kW for a second"
+    )]
+    pub fn most_in_a_second_mwh(&self) -> u64 {
+        let at_end =
+            |segment: &Segment, mwh: f64| segment.power + segment.slope * (mwh - segment.from_mwh);
+        let ends = self.segments.iter().skip(1).map(|segment| segment.from_mwh);
+        let ends = ends.chain([self.full_mwh as f64]);
+        let powers = self.segments.iter().zip(ends);
+        let most = powers.map(|(segment, end)| segment.power.max(at_end(segment, end)));
+        most.fold(0.0, f64::max).ceil() as u64 + 1
+    }
+
+    /// Seconds from a charge to a full battery.
+    #[inline]
+    pub fn to_full_s(&self, from_mwh: u64) -> f64 {
+        if from_mwh >= self.full_mwh { 0.0 } else { self.full_s - self.seconds_to(from_mwh as f64) }
+    }
+
+    /// The charge from which a full battery is some seconds away, mWh.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 0 and the capacity, which is below 2^53 mWh"
+    )]
+    pub fn with_to_full_mwh(&self, seconds: f64) -> u64 {
+        let at_s = (self.full_s - seconds).clamp(0.0, self.full_s);
+        let later = self.segments.partition_point(|segment| segment.from_s <= at_s);
+        let mwh = self.segments[later.saturating_sub(1)].mwh_at(at_s).round() as u64;
+        mwh.min(self.full_mwh)
+    }
+
+    /// The charge after some seconds, to the nearest mWh and at most a full battery.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most the capacity, which is whole and below 2^53 mWh"
+    )]
+    pub fn charged_mwh(&self, from_mwh: u64, seconds: u32) -> u64 {
+        if seconds == 0 || from_mwh >= self.full_mwh {
+            return from_mwh;
+        }
+        let at_s = self.seconds_to(from_mwh as f64) + f64::from(seconds);
+        if at_s >= self.full_s {
+            return self.full_mwh;
+        }
+        let later = self.segments.partition_point(|segment| segment.from_s <= at_s);
+        let mwh = self.segments[later.saturating_sub(1)].mwh_at(at_s).round() as u64;
+        mwh.clamp(from_mwh, self.full_mwh)
+    }
+
+    /// The fewest whole seconds after which a battery has a charge, which a full one has.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "never negative, and a full charge takes at most 5,000 hours"
+    )]
+    pub fn needed_s(&self, from_mwh: u64, mwh: u64) -> u32 {
+        if mwh <= from_mwh {
+            return 0;
+        }
+        // Charges are rounded to the nearest, so half a milliwatt-hour less is enough.
+        let exact_s = self.seconds_to(mwh as f64 - 0.5) - self.seconds_to(from_mwh as f64);
+        let mut seconds = exact_s.ceil().max(0.0) as u32;
+        while self.charged_mwh(from_mwh, seconds) < mwh {
+            seconds += 1;
+        }
+        while seconds > 0 && self.charged_mwh(from_mwh, seconds - 1) >= mwh {
+            seconds -= 1;
+        }
+        seconds
+    }
+}
+
+/// The points of a curve whose power is limited, with a new point wherever it crosses the limit.
+fn limited(curve: &[CurvePoint], most_kw: f64) -> Vec<CurvePoint> {
+    let limit = |point: CurvePoint| CurvePoint { kw: point.kw.min(most_kw), ..point };
+    let mut points: Vec<CurvePoint> = curve.first().copied().map(limit).into_iter().collect();
+    for pair in curve.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        if (from.kw < most_kw) != (to.kw < most_kw) {
+            let share = (most_kw - from.kw) / (to.kw - from.kw);
+            let charge = from.charge + share * (to.charge - from.charge);
+            points.push(CurvePoint { charge, kw: most_kw });
+        }
+        points.push(limit(to));
+    }
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
+
+    use super::{ChargeRate, whole_mwh};
+    use crate::{AircraftType, ChargeCurve, CurvePoint, Vertiport};
+
+    fn kind(battery_kwh: f64, charge_kw: f64, curve: &[(f64, f64)]) -> AircraftType {
+        let points = curve.iter().map(|&(charge, kw)| CurvePoint { charge, kw }).collect();
+        AircraftType {
+            id: "T".to_owned(),
+            seats: 4,
+            speed_mph: 74.5,
+            battery_kwh,
+            energy_kwh_per_mi: 2.2,
+            charge_kw,
+            self_discharge_per_h: 0.0,
+            reserve_kwh: 0.0,
+            turnaround_s: 0,
+            charge_curve: (!curve.is_empty()).then(|| ChargeCurve::through(points)),
+        }
+    }
+
+    fn vertiport(charger_kw: Option<f64>) -> Vertiport {
+        Vertiport {
+            id: "V".to_owned(),
+            x_mi: 0.0,
+            y_mi: 0.0,
+            stands: 1,
+            chargers: None,
+            charger_kw,
+            busy: false,
+            degrees: None,
+            stand_cost_usd: 0.0,
+            charger_cost_usd: 0.0,
+        }
+    }
+
+    #[test]
+    fn constant_power_charges_energy_by_time() {
+        let rate = ChargeRate::of(&kind(110.0, 150.0, &[]), &vertiport(Some(100.0)));
+        assert_eq!(rate.charged_mwh(0, 36), whole_mwh(1.0));
+        assert_eq!(rate.needed_s(0, whole_mwh(1.0)), 36);
+        assert_eq!(rate.needed_s(0, whole_mwh(1.0) + 1), 37);
+        assert_eq!(rate.charged_mwh(whole_mwh(109.5), 3600), whole_mwh(110.0));
+    }
+
+    #[test]
+    fn a_curve_may_begin_at_its_limit() {
+        let taper = [(0.0, 150.0), (0.8, 150.0), (1.0, 50.0)];
+        let rate = ChargeRate::of(&kind(100.0, 150.0, &taper), &vertiport(None));
+        assert_eq!(rate.charged_mwh(0, 1_920), whole_mwh(80.0));
+        // The last 20 kWh take 20 / 100 ln 3 hours.
+        assert_eq!(rate.needed_s(whole_mwh(80.0), whole_mwh(100.0)), 792);
+        assert_eq!(rate.to_full_s(0).round(), 2_711.0);
+    }
+
+    proptest! {
+        /// The curve is integrated in steps of a hundredth of a second.
+        #[test]
+        fn charges_agree_with_small_steps(
+            kw in proptest::collection::vec(5.0..400.0_f64, 3),
+            middle in 0.05..0.95_f64, most_kw in 20.0..300.0_f64,
+            start in 0.0..1.0_f64, seconds in 0_u32..2000
+        ) {
+            let curve = [(0.0, kw[0]), (middle, kw[1]), (1.0, kw[2])];
+            let rate = ChargeRate::of(&kind(100.0, 500.0, &curve), &vertiport(Some(most_kw)));
+            let power = |share: f64| {
+                let (from, to) =
+                    if share < middle { (curve[0], curve[1]) } else { (curve[1], curve[2]) };
+                let kw = from.1 + (to.1 - from.1) * (share - from.0) / (to.0 - from.0);
+                kw.min(most_kw)
+            };
+            let mut kwh = 100.0 * start;
+            for _ in 0..seconds * 100 {
+                let half = (kwh + power(kwh / 100.0) * 0.005 / 3600.0).min(100.0);
+                kwh = (kwh + power(half / 100.0) * 0.01 / 3600.0).min(100.0);
+            }
+            let charged = rate.charged_mwh(whole_mwh(100.0 * start), seconds) as f64 / 1e6;
+            prop_assert!((charged - kwh).abs() < 1e-3, "{charged} {kwh}");
+        }
+
+        #[test]
+        fn the_seconds_needed_are_the_fewest(
+            kw in proptest::collection::vec(1.0..400.0_f64, 3), middle in 0.05..0.95_f64,
+            from in 0_u64..100_000_000, to in 0_u64..=100_000_000
+        ) {
+            let curve = [(0.0, kw[0]), (middle, kw[1]), (1.0, kw[2])];
+            let rate = ChargeRate::of(&kind(100.0, 300.0, &curve), &vertiport(None));
+            let seconds = rate.needed_s(from, to);
+            prop_assert!(rate.charged_mwh(from, seconds) >= to.min(100_000_000));
+            if seconds > 0 {
+                prop_assert!(rate.charged_mwh(from, seconds - 1) < to);
+            } else {
+                prop_assert!(from >= to);
+            }
+            prop_assert_eq!(rate.charged_mwh(from, 0), from);
+        }
+    }
+}
