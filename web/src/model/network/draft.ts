@@ -20,6 +20,8 @@ export interface TypeDraft {
   id: string
   /** All members that are numbers. */
   numbers: Readonly<Record<string, number | undefined>>
+  /** Charging power by charge: pairs of a share of the battery and kW; empty without a curve. */
+  curve: [share: number, kw: number][]
 }
 
 export interface FleetDraft {
@@ -71,7 +73,7 @@ export function draftOf(value: unknown): Draft {
   return {
     name: text(all['name']),
     vertiports,
-    types: list(all['aircraft_types']).map((one) => ({ id: text(one['id']), numbers: numbersOf(one) })),
+    types: list(all['aircraft_types']).map(typeOf),
     fleet: list(all['fleet']).map((one) => ({ type: text(one['type']), count: number(one['count']) })),
     periods: listOf(table?.['periods'])
       .map((one) => (typeof one === 'string' ? parseTime(one) : undefined))
@@ -100,6 +102,14 @@ function vertiportOf(one: Members): VertiportDraft {
     chargers: number(one['chargers']),
     busy: one['busy'] === true,
   }
+}
+
+function typeOf(one: Members): TypeDraft {
+  const curve = listOf(one['charge_curve']).flatMap((point): [number, number][] => {
+    const [share, kw] = listOf(point)
+    return typeof share === 'number' && typeof kw === 'number' ? [[share, kw]] : []
+  })
+  return { id: text(one['id']), numbers: numbersOf(one), curve }
 }
 
 function demandTable(all: Members): Members | undefined {
