@@ -11,10 +11,12 @@ import {
   ranked,
   Steady,
   waitingOf,
+  waitOf,
   worthOf,
 } from './decisions'
 import { events, state } from './fixtures/liveDay'
 import type { DayRecord } from './record'
+import { timeOf } from './time'
 
 const proposal: Proposal = {
   aircraft: 'A01',
@@ -164,6 +166,14 @@ describe('a proposal', () => {
     })
     expect((worth?.flight_usd ?? 0) + (worth?.onward_usd ?? 0) - 43.15).toBeCloseTo(849.6)
     expect(unpriced && worthOf(unpriced)).toBeUndefined()
+  })
+
+  it('has choices that wait for charge', () => {
+    const decided = timeOf('06:00:00')
+    const choice = { takeoff: '06:12:30', needs_kwh: 38.2 }
+    expect(waitOf(choice, decided)).toEqual({ takeoff: timeOf('06:12:30'), needs_kwh: 38.2 })
+    expect(waitOf({ ...choice, takeoff: '06:00:00' }, decided)).toBeUndefined()
+    expect(waitOf({}, decided)).toBeUndefined()
   })
 })
 

@@ -162,6 +162,21 @@ export function worthOf(alternative: Alternative): Worth | undefined {
   return { flight_usd: flight_profit_usd, onward_usd, stand_usd, worth_usd, value_usd }
 }
 
+/** When a flight takes off that waits for charge, and what its battery needs. */
+export interface ChargeWait {
+  takeoff: Seconds
+  needs_kwh: number
+}
+
+/** The wait for charge of a choice; undefined if it takes off at the decision. */
+export function waitOf(
+  { takeoff, needs_kwh }: Pick<Alternative, 'takeoff' | 'needs_kwh'>,
+  decided: Seconds,
+): ChargeWait | undefined {
+  if (takeoff == null || needs_kwh == null || timeOf(takeoff) <= decided) return undefined
+  return { takeoff: timeOf(takeoff), needs_kwh }
+}
+
 /** A decision that was taken, and whether it can still be undone. */
 export interface Decided {
   seq: number

@@ -13,7 +13,7 @@ import { canBeDecidedAgain, isOver } from '../model/over'
 import { WINDOW_MS } from '../model/pace'
 import type { DayRecord, LegRecord, Seconds } from '../model/record'
 import { Reports } from '../model/reports'
-import type { Scenario } from '../model/scenario'
+import type { Scenario, ScenarioAircraftType } from '../model/scenario'
 import type { Target } from '../model/target'
 import { timeOf } from '../model/time'
 import { recordOf } from '../model/traces'
@@ -226,6 +226,12 @@ export class LiveDay {
   targetOf(aircraft: string): Target | undefined {
     const index = this.#scenario?.aircraft.findIndex((one) => one.id === aircraft) ?? -1
     return index < 0 ? undefined : { kind: 'aircraft', aircraft: index }
+  }
+
+  /** The type of an aircraft; undefined if there is none of this id. */
+  typeOf(aircraft: string | undefined): ScenarioAircraftType | undefined {
+    const one = this.#scenario?.aircraft.find(({ id }) => id === aircraft)
+    return this.#scenario?.aircraft_types.find(({ id }) => id === one?.type)
   }
 
   /** When an aircraft is or was ready. */

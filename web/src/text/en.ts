@@ -215,6 +215,9 @@ export const en = {
     goneDecided: (aircraft: string, to: string, who: string) => `${aircraft} was sent to ${to} (${who}).`,
     goOn: 'Next',
     passengers: (number: number) => `${number} ${number === 1 ? 'passenger' : 'passengers'}`,
+    takesOff: (time: string) => `takes off ${time}`,
+    takesOffCharged: (time: string, needs: string, hasReserve: boolean) =>
+      `takes off at ${time}, when it has the ${needs} kWh it needs${hasReserve ? ' with its reserve' : ''}`,
     lands: (time: string) => `lands ${time}`,
     readyAgain: (time: string) => `ready ${time}`,
     alternatives: 'Alternatives',
@@ -246,6 +249,8 @@ export const en = {
       closed: (to: string) => `The route to ${to} is closed.`,
       no_stand_free: (to: string, numbers: string) =>
         `Every stand or charger at ${to} is taken, or reserved for an aircraft on its way there${numbers}.`,
+      charged_too_late: (to: string) =>
+        `The battery has the energy of the flight to ${to} and the reserve only after the end of operations.`,
     },
     why: 'Worth in detail',
     worthParts: {
