@@ -11,6 +11,8 @@ export interface Waiting {
   at: string
   ready: Seconds
   isFull: boolean
+  /** What its battery holds; only on days that charge as needed. */
+  charge_kwh?: number
 }
 
 /**
@@ -49,10 +51,10 @@ export function nextOf(state: DayState, most: number, decided: ReadonlySet<strin
   return waiting.slice(0, most)
 }
 
-function waitingAt(state: DayState, { id, place, ready }: AircraftState): Waiting {
+function waitingAt(state: DayState, { id, place, ready, charge_kwh }: AircraftState): Waiting {
   const vertiport = state.vertiports.find((one) => one.id === place)
   const isFull = vertiport !== undefined && vertiport.taken >= vertiport.stands
-  return { id, at: place, ready: timeOf(ready), isFull }
+  return { id, at: place, ready: timeOf(ready), isFull, ...(charge_kwh == null ? {} : { charge_kwh }) }
 }
 
 /** An expected decision of the policy. */

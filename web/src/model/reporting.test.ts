@@ -19,6 +19,13 @@ describe('an event from the form', () => {
     expect(eventOf('stands', fields)).toEqual({ type: 'stands', vertiport: 'V1', stands: 3 })
   })
 
+  it('has the charge of a landing if it is given', () => {
+    const landed = { type: 'landed', aircraft: 'A01' }
+    expect(eventOf('landed', { ...fields, charge_kwh: null })).toEqual(landed)
+    expect(eventOf('landed', { ...fields, charge_kwh: 41.5 })).toEqual({ ...landed, charge_kwh: 41.5 })
+    expect(eventOf('ready', { ...fields, charge_kwh: 41.5 })).toEqual({ type: 'ready', aircraft: 'A01' })
+  })
+
   it('is undefined if a required time is missing or invalid', () => {
     expect(eventOf('delayed', { ...fields, until: '' })).toBeUndefined()
     expect(eventOf('out_of_service', { ...fields, until: 'noon' })).toBeUndefined()
@@ -31,7 +38,7 @@ describe('an event from the form', () => {
   it('can be of every kind', () => {
     for (const kind of reportKinds) {
       expect(eventOf(kind, { ...fields, to: 'V2' })?.type).toBe(kind)
-      expect(Object.keys(fieldsOf(kind))).toHaveLength(5)
+      expect(Object.keys(fieldsOf(kind))).toHaveLength(6)
     }
   })
 })

@@ -13,6 +13,8 @@ export interface EventFields {
   /** A time, as typed. */
   until: string
   number: number
+  /** What the battery holds after a landing, if it is not what was expected. */
+  charge_kwh?: number | null | undefined
 }
 
 /** The fields of a kind of event. */
@@ -22,6 +24,8 @@ interface FieldsOf {
   /** Whether there is a destination; `all` means that it is optional. */
   to: 'no' | 'one' | 'all'
   number: boolean
+  /** Whether the charge may be given, on a day that charges as needed. */
+  charge: boolean
   until: 'no' | 'may' | 'must'
 }
 
@@ -31,7 +35,7 @@ interface FieldsOf {
  */
 const fields = {
   departed: { aircraft: true },
-  landed: { aircraft: true },
+  landed: { aircraft: true, charge: true },
   ready: { aircraft: true },
   delayed: { aircraft: true, until: 'must' },
   out_of_service: { aircraft: true, until: 'may' },
@@ -47,12 +51,20 @@ export type ReportKind = keyof typeof fields
 export const reportKinds = Object.keys(fields) as ReportKind[]
 
 export function fieldsOf(kind: ReportKind): FieldsOf {
-  return { aircraft: false, from: false, to: 'no', number: false, until: 'no', ...fields[kind] }
+  return {
+    aircraft: false,
+    from: false,
+    to: 'no',
+    number: false,
+    charge: false,
+    until: 'no',
+    ...fields[kind],
+  }
 }
 
 /** The event from the form; undefined if its time is invalid. */
 export function eventOf(kind: ReportKind, typedIn: EventFields): Event | undefined {
-  const { aircraft, from, to, number } = typedIn
+  const { aircraft, from, to, number, charge_kwh } = typedIn
   const typed = typedIn.until.trim()
   const time = typed === '' ? undefined : parseTime(typed)
   const { until } = fieldsOf(kind)
@@ -60,8 +72,9 @@ export function eventOf(kind: ReportKind, typedIn: EventFields): Event | undefin
   const at = time === undefined ? '' : clock(time)
   const end = time === undefined ? {} : { until: at }
   switch (kind) {
-    case 'departed':
     case 'landed':
+      return { type: kind, aircraft, ...(charge_kwh == null ? {} : { charge_kwh }) }
+    case 'departed':
     case 'ready':
     case 'back_in_service':
       return { type: kind, aircraft }

@@ -228,6 +228,11 @@ export class LiveDay {
     return index < 0 ? undefined : { kind: 'aircraft', aircraft: index }
   }
 
+  /** Whether aircraft decide whatever their charge. */
+  get chargesAsNeeded(): boolean {
+    return this.#scenario?.operations.charging === 'as_needed'
+  }
+
   /** The type of an aircraft; undefined if there is none of this id. */
   typeOf(aircraft: string | undefined): ScenarioAircraftType | undefined {
     const one = this.#scenario?.aircraft.find(({ id }) => id === aircraft)

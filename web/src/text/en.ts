@@ -322,6 +322,8 @@ export const en = {
       stands: 'A vertiport has gained or lost stands',
       clock: 'Nothing; the clock advances',
     },
+    charge: 'Charge of its battery, kWh',
+    chargeAsExpected: 'as expected',
     time: 'When it happened',
     now: (time: string) => `now (${time})`,
     send: 'Report',
@@ -377,8 +379,8 @@ export const en = {
     undone: (aircraft: string) => `The decision of ${aircraft} was undone`,
     departed: (aircraft: string, to: string | undefined, passengers: number | undefined) =>
       `${aircraft} has departed${to === undefined ? '' : ` for ${to}`}${passengers === undefined ? '' : ` with ${plural(passengers, 'passenger', 'passengers')}`}`,
-    landed: (aircraft: string, at: string | undefined) =>
-      `${aircraft} has landed${at === undefined ? '' : ` at ${at}`}`,
+    landed: (aircraft: string, at: string | undefined, charge: string | undefined) =>
+      `${aircraft} has landed${at === undefined ? '' : ` at ${at}`}${charge === undefined ? '' : ` with ${charge} kWh`}`,
     charging: (aircraft: string, ready: string) => `${aircraft} will be charged at ${ready}`,
     ready: (aircraft: string) => `${aircraft} is charged`,
     delayed: (aircraft: string, until: string) => `${aircraft} is delayed until ${until}`,
@@ -406,6 +408,10 @@ export const en = {
     sentOff: (from: string, to: string) => `dispatched from ${from} to ${to}, not departed`,
     inTheAir: (to: string, arrival: string) => `in the air to ${to}, lands ${arrival}`,
     notLanded: (to: string, due: string) => `in the air to ${to}, landing was due at ${due}`,
+    charge: (kwh: string, battery: string) => `${kwh} kWh of ${battery}`,
+    charges: 'Charge of the aircraft',
+    landsWith: (kwh: string) => `lands with ${kwh} kWh`,
+    waitsForCharge: (time: string) => `charges until it takes off at ${time}`,
     outOfService: 'out of service',
     outUntil: (time: string) => `out of service until ${time}`,
   },

@@ -2,6 +2,7 @@
 // vertiport of a landing, if the event does not contain it.
 
 import type { Event, RouteNames } from '../api/types'
+import { tenths } from '../model/money'
 import { clock, timeOf } from '../model/time'
 import { text } from './text'
 
@@ -15,7 +16,11 @@ export function sentence(event: Event, place?: string): string {
     case 'departed':
       return texts.departed(event.aircraft, event.to ?? place, event.passengers ?? undefined)
     case 'landed':
-      return texts.landed(event.aircraft, event.at ?? place)
+      return texts.landed(
+        event.aircraft,
+        event.at ?? place,
+        event.charge_kwh == null ? undefined : tenths(event.charge_kwh),
+      )
     case 'charging':
       return texts.charging(event.aircraft, clock(timeOf(event.ready)))
     case 'ready':
