@@ -117,5 +117,6 @@ function awaitedAt(leg: LegRecord, time: Seconds): LegRecord {
 function postponed(leg: LegRecord, delay_s: Seconds): LegRecord {
   if (delay_s === 0) return leg
   const [decided, departs] = [leg.decided + delay_s, leg.departs + delay_s]
-  return { ...leg, decided, departs, arrives: leg.arrives + delay_s, ready: leg.ready + delay_s }
+  const charged = leg.charged === undefined ? {} : { charged: leg.charged + delay_s }
+  return { ...leg, ...charged, decided, departs, arrives: leg.arrives + delay_s, ready: leg.ready + delay_s }
 }

@@ -2,10 +2,10 @@
 
 import type { AircraftState, DayState, Leg, Outlook } from '../api/types'
 import { grouped } from './arrays'
-import { nominal } from './nominal'
+import { nominal, withTakeoff } from './nominal'
 import type { AircraftRecord, DayRecord, DemandRecord, LegRecord, Seconds, VertiportRecord } from './record'
 import { indexed, known, type Reports } from './reports'
-import type { Scenario } from './scenario'
+import type { Scenario, ScenarioAircraft } from './scenario'
 import { timeOf } from './time'
 
 /** The inputs of a record. The outlook may be older than the state, or not available yet. */
@@ -48,24 +48,33 @@ export function frameOf(scenario: Scenario): Omit<DayRecord, 'legs' | 'closures'
     vertiports: scenario.vertiports.map(vertiportOf),
     aircraft: scenario.aircraft.map((one) => aircraftOf(scenario, one, known(vertiports, one.at))),
     periods: scenario.periods.map(timeOf),
+    ...(scenario.operations.charging === 'as_needed' ? { chargesAsNeeded: true } : {}),
   }
 }
 
 function vertiportOf({ id, x_mi, y_mi, stands, ...more }: Scenario['vertiports'][number]): VertiportRecord {
-  const { latitude, longitude, chargers } = more
+  const { latitude, longitude, chargers, charger_kw } = more
   const degrees = latitude === undefined || longitude === undefined ? {} : { latitude, longitude }
-  return { id, place: { x_mi, y_mi, ...degrees }, stands, ...(chargers === undefined ? {} : { chargers }) }
+  return {
+    ...{ id, place: { x_mi, y_mi, ...degrees }, stands },
+    ...(chargers === undefined ? {} : { chargers }),
+    ...(charger_kw === undefined ? {} : { charger_kw }),
+  }
 }
 
 function aircraftOf(
   scenario: Scenario,
-  { id, type }: { id: string; type: string },
+  { id, type, start_charge_kwh }: ScenarioAircraft,
   begins_at: number,
 ): AircraftRecord {
   const kind = scenario.aircraft_types.find((one) => one.id === type)
   if (kind === undefined) throw new Error(`the scenario has no aircraft type "${type}"`)
-  const { seats, battery_kwh, charge_kw, energy_kwh_per_mi } = kind
-  return { id, type, seats, battery_kwh, charge_kw, energy_kwh_per_mi, begins_at }
+  const { seats, battery_kwh, charge_kw, charge_curve, energy_kwh_per_mi } = kind
+  return {
+    ...{ id, type, seats, battery_kwh, charge_kw, energy_kwh_per_mi, begins_at },
+    ...(charge_curve === undefined ? {} : { charge_curve }),
+    ...(start_charge_kwh === undefined ? {} : { start_charge_kwh }),
+  }
 }
 
 function conditionsOf(
@@ -88,7 +97,7 @@ export function legsOf(outlook: Outlook, scenario: Scenario): LegRecord[] {
   const former = readLegs.get(outlook)
   if (former !== undefined) return former
   const [aircraft, vertiports] = [indexed(scenario.aircraft), indexed(scenario.vertiports)]
-  const legs = outlook.legs.map((leg) => legOf(leg, aircraft, vertiports))
+  const legs = outlook.legs.map((leg) => withTakeoff(scenario, legOf(leg, aircraft, vertiports)))
   readLegs.set(outlook, legs)
   return legs
 }
@@ -137,13 +146,18 @@ class Legs {
         continue
       }
       const { passengers } = one.flight
+      const charge = chargeOfFlight(one)
       const decided = timeOf(one.flight.decided)
       if (latest?.decided === decided)
-        Object.assign(latest, this.#awaiting(one, this.#reported({ ...latest, ...times, passengers })))
+        Object.assign(
+          latest,
+          this.#awaiting(one, this.#reported({ ...latest, ...times, ...charge, passengers })),
+        )
       else {
         const [from, to] = [known(places, one.flight.from), known(places, one.flight.to)]
-        const flight = { aircraft, from, to, decided, departs: decided, ...times }
-        const leg = this.#reported({ ...flight, passengers, profit_usd: 0, is_expected: false })
+        const flight = { aircraft, from, to, decided, departs: decided, ...times, passengers }
+        const whole = withTakeoff(this.scenario, { ...flight, profit_usd: 0, is_expected: false })
+        const leg = this.#reported({ ...whole, ...charge })
         more.push(this.#awaiting(one, leg))
       }
     }
@@ -199,11 +213,22 @@ class Legs {
     const report = this.reports.decision(leg.aircraft, leg.decided)
     const policy = report?.policy === undefined ? {} : { policy: report.policy }
     if (leg.from === leg.to) return { ...leg, ...policy }
-    const departs = report?.departs ?? leg.decided
-    const arrives = leg.decided + nominal(this.scenario, leg).flight_s
-    if (departs === leg.decided && leg.arrives === arrives) return { ...leg, ...policy, departs }
-    const planned = { departs: leg.decided, arrives, ready: arrives + leg.ready - leg.arrives }
-    return { ...leg, ...policy, departs, planned }
+    const charged = leg.charged ?? leg.decided
+    const departs = report?.departs ?? charged
+    const arrives = charged + nominal(this.scenario, leg).flight_s
+    const charge = report?.lands_with_kwh === undefined ? {} : { lands_with_kwh: report.lands_with_kwh }
+    const known = { ...leg, ...policy, ...charge, departs }
+    if (departs === charged && leg.arrives === arrives) return known
+    const planned = { departs: charged, arrives, ready: arrives + leg.ready - leg.arrives }
+    return { ...known, planned }
+  }
+}
+
+/** What the state of an aircraft under way adds to its leg on a day that charges as needed. */
+function chargeOfFlight({ flight, lands_with_kwh }: AircraftState): Partial<LegRecord> {
+  return {
+    ...(flight?.takeoff == null ? {} : { charged: timeOf(flight.takeoff) }),
+    ...(lands_with_kwh == null ? {} : { lands_with_kwh }),
   }
 }
 

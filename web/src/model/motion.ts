@@ -3,8 +3,9 @@
 
 import { at, countUpTo } from './arrays'
 import { latenessOf, minutesOverdue } from './awaited'
+import { Charges } from './charges'
 import { Geography } from './geography'
-import type { AircraftRecord, DayRecord, LegRecord, Seconds } from './record'
+import type { DayRecord, LegRecord, Seconds } from './record'
 import { isHold } from './record'
 
 /** The phase of an aircraft. */
@@ -62,8 +63,8 @@ export class Fleet {
   readonly #begins: Int32Array
   readonly #legs: Int32Array
   readonly #decided: Float64Array
-  readonly #chargeAtDeparture: Float32Array
-  readonly #chargeAtArrival: Float32Array
+  /** The charge of every aircraft along its legs. */
+  readonly charges: Charges
 
   constructor(readonly record: DayRecord) {
     const { aircraft, legs } = record
@@ -71,10 +72,8 @@ export class Fleet {
     this.#begins = new Int32Array(aircraft.length + 1)
     this.#legs = new Int32Array(legs.length)
     this.#decided = new Float64Array(legs.length)
-    this.#chargeAtDeparture = new Float32Array(legs.length)
-    this.#chargeAtArrival = new Float32Array(legs.length)
     this.#sortByAircraft()
-    aircraft.forEach((one, index) => this.#estimateCharges(one, index))
+    this.charges = new Charges(record, this.geography)
   }
 
   /** A counting sort, which keeps the order of time. */
@@ -91,28 +90,6 @@ export class Fleet {
       this.#legs[slot] = index
       this.#decided[slot] = leg.decided
     })
-  }
-
-  /**
-   * Days begin with full batteries. A flight uses energy by the mile, and charging begins at
-   * arrival.
-   */
-  #estimateCharges(aircraft: AircraftRecord, index: number): void {
-    let former: LegRecord | undefined
-    let charge = 1
-    for (let slot = at(this.#begins, index); slot < at(this.#begins, index + 1); slot++) {
-      const leg = this.#legAt(slot)
-      if (former !== undefined) charge = chargedSince(charge, aircraft, leg.departs - former.arrives)
-      this.#chargeAtDeparture[slot] = charge
-      const energy_kwh = aircraft.energy_kwh_per_mi * this.geography.distance(leg.from, leg.to)
-      charge = Math.max(0, charge - energy_kwh / aircraft.battery_kwh)
-      this.#chargeAtArrival[slot] = charge
-      former = leg
-    }
-  }
-
-  #legAt(slot: number): LegRecord {
-    return at(this.record.legs, at(this.#legs, slot))
   }
 
   /** A frame of the right size, which `show` can fill repeatedly. */
@@ -138,37 +115,37 @@ export class Fleet {
   #showAircraft(one: number, time: Seconds, frame: FleetFrame): void {
     const begin = at(this.#begins, one)
     const taken = countUpTo(this.#decided, time, begin, at(this.#begins, one + 1) - begin)
-    if (taken === 0) this.#showAtStart(one, frame)
+    if (taken === 0) this.#showAtStart(one, time, frame)
     else this.#showOnLeg(one, begin + taken - 1, time, frame)
   }
 
-  #showAtStart(one: number, frame: FleetFrame): void {
+  #showAtStart(one: number, time: Seconds, frame: FleetFrame): void {
     const aircraft = at(this.record.aircraft, one)
     this.#stand(one, aircraft.begins_at, frame)
     frame.legs[one] = NONE
-    frame.charges[one] = 1
+    frame.charges[one] = this.charges.atStart(one, time)
     frame.phases[one] = Phase.waiting
     frame.overdue_min[one] = 0
   }
 
   #showOnLeg(one: number, slot: number, time: Seconds, frame: FleetFrame): void {
-    const aircraft = at(this.record.aircraft, one)
-    const leg = this.#legAt(slot)
-    frame.legs[one] = at(this.#legs, slot)
+    const position = at(this.#legs, slot)
+    const leg = at(this.record.legs, position)
+    frame.legs[one] = position
     frame.overdue_min[one] = minutesOverdue(leg, time)
     const isOnGround = time < leg.departs || leg.awaited?.report === 'departure'
     if (isOnGround || (isHold(leg) && time < leg.ready)) {
       this.#stand(one, leg.from, frame)
       frame.phases[one] = isHold(leg) ? Phase.holding : Phase.delayed
-      frame.charges[one] = chargedSince(at(this.#chargeAtDeparture, slot), aircraft, time - leg.departs)
+      frame.charges[one] = this.charges.before(position, time)
     } else if (time < leg.arrives || leg.awaited !== undefined) {
       this.#fly(one, leg, time, frame)
-      const [before, after] = [at(this.#chargeAtDeparture, slot), at(this.#chargeAtArrival, slot)]
+      const [before, after] = [this.charges.departing(position), this.charges.arriving(position)]
       frame.charges[one] = before + (after - before) * shareOfTime(leg, time)
     } else {
       this.#stand(one, leg.to, frame)
       frame.phases[one] = time < leg.ready ? Phase.charging : Phase.waiting
-      frame.charges[one] = chargedSince(at(this.#chargeAtArrival, slot), aircraft, time - leg.arrives)
+      frame.charges[one] = this.charges.after(position, time)
     }
   }
 
@@ -216,8 +193,4 @@ function ramp(passed_s: number, whole_s: number): number {
 
 function shareOfTime(leg: LegRecord, time: Seconds): number {
   return Math.min(1, (time - leg.departs) / Math.max(leg.arrives - leg.departs, 1e-9))
-}
-
-function chargedSince(charge: number, aircraft: AircraftRecord, seconds: number): number {
-  return Math.min(1, charge + (aircraft.charge_kw * Math.max(0, seconds)) / 3600 / aircraft.battery_kwh)
 }

@@ -15,6 +15,8 @@ export interface DayRecord {
   landing_s: number
   /** How long passengers who were not carried in their period wait into the next one. */
   passenger_wait_s: Seconds
+  /** Whether aircraft decide whatever their charge, and take off when it suffices. */
+  chargesAsNeeded?: boolean
   vertiports: VertiportRecord[]
   aircraft: AircraftRecord[]
   /** Every flight and hold, by the time of its decision. */
@@ -32,6 +34,8 @@ export interface VertiportRecord {
   stands: number
   /** The number of chargers, if it is separate from the number of stands. */
   chargers?: number
+  /** The most power that a charger delivers, if it limits the aircraft. */
+  charger_kw?: number
 }
 
 /**
@@ -51,6 +55,9 @@ export interface AircraftRecord {
   battery_kwh: number
   charge_kw: number
   energy_kwh_per_mi: number
+  charge_curve?: [share: number, kw: number][]
+  /** A full battery if absent. */
+  start_charge_kwh?: number
   /** Index of the vertiport where it begins the day. */
   begins_at: number
 }
@@ -68,6 +75,13 @@ export interface LegRecord {
   departs: Seconds
   arrives: Seconds
   ready: Seconds
+  /** When the charge suffices for the flight; only on days that charge as needed. */
+  charged?: Seconds
+  /** What the flight takes, if it is not estimated by the mile. */
+  energy_kwh?: number
+  /** What the battery holds at the decision and at the landing, as far as that is known. */
+  charge_kwh?: number
+  lands_with_kwh?: number
   /** The plan at the time of the decision, if the flight went differently. */
   planned?: { departs: Seconds; arrives: Seconds; ready: Seconds }
   /**

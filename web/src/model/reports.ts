@@ -11,6 +11,8 @@ export interface ReportedDecision {
   departs?: Seconds
   hasDeparted: boolean
   landed?: Seconds
+  /** The charge that the aircraft landed with, if it was reported. */
+  lands_with_kwh?: number
   policy?: string
 }
 
@@ -80,7 +82,9 @@ export class Reports {
       }
       case 'landed': {
         const known = this.#decisions.get(key(aircraft, decided))
-        if (known !== undefined) known.landed = at
+        if (known === undefined) break
+        known.landed = at
+        if (event.charge_kwh != null) known.lands_with_kwh = event.charge_kwh
         break
       }
       case 'delayed': {

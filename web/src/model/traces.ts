@@ -188,7 +188,14 @@ class TraceReader {
       is_expected: false,
       ...(this.policy === undefined ? {} : { policy: this.policy }),
     }
-    if (from !== to) this.#compareWithPlan(leg, nominal(this.scenario, leg))
+    if (this.#columns.has('charge_kwh')) leg.charge_kwh = number('charge_kwh')
+    if (from === to) return leg
+    const plan = nominal(this.scenario, leg)
+    if (this.#columns.has('takeoff')) {
+      leg.charged = time('takeoff')
+      leg.energy_kwh = plan.energy_kwh
+    }
+    this.#compareWithPlan(leg, plan)
     return leg
   }
 
@@ -196,10 +203,11 @@ class TraceReader {
    * A flight that arrives late was delayed on the ground (docs/src/concepts/model.md, take-off
    * delays).
    */
-  #compareWithPlan(leg: LegRecord, { flight_s, charge_s }: Nominal): void {
-    const arrives = leg.decided + flight_s
-    const planned = { departs: leg.decided, arrives, ready: arrives + charge_s }
-    leg.departs = leg.decided + Math.max(0, leg.arrives - arrives)
+  #compareWithPlan(leg: LegRecord, { flight_s, ground_s }: Nominal): void {
+    const departs = leg.charged ?? leg.decided
+    const arrives = departs + flight_s
+    const planned = { departs, arrives, ready: arrives + ground_s }
+    leg.departs = departs + Math.max(0, leg.arrives - arrives)
     if (leg.arrives !== planned.arrives || leg.ready !== planned.ready) leg.planned = planned
   }
 

@@ -1,0 +1,104 @@
+// An estimate of the charge of every aircraft along its legs, as shares of its battery. It begins
+// with the charge of the morning. A flight takes its energy, and charging begins at arrival and
+// ends at take-off. Charges that are known, by a trace or by the service, replace estimates.
+
+import { at } from './arrays'
+import type { Geography } from './geography'
+import { ChargeRate } from './rate'
+import type { DayRecord, LegRecord, Seconds } from './record'
+import { isHold } from './record'
+
+/** The charge at a time from which on an aircraft charges. */
+interface Known {
+  share: number
+  since: Seconds
+}
+
+export class Charges {
+  /** By position in the record's legs. */
+  readonly #before: Known[] = []
+  readonly #departs: Float32Array
+  readonly #arrives: Float32Array
+  /** By aircraft and vertiport. */
+  readonly #rates: (ChargeRate | undefined)[] = []
+
+  constructor(
+    private readonly record: DayRecord,
+    private readonly geography: Geography,
+  ) {
+    this.#departs = new Float32Array(record.legs.length)
+    this.#arrives = new Float32Array(record.legs.length)
+    const latest = record.aircraft.map((_, aircraft) => this.#morning(aircraft))
+    record.legs.forEach((leg, index) => {
+      latest[leg.aircraft] = this.#estimate(leg, index, at(latest, leg.aircraft))
+    })
+  }
+
+  /** The charge before the first leg of an aircraft. */
+  atStart(aircraft: number, time: Seconds): number {
+    const { begins_at } = at(this.record.aircraft, aircraft)
+    return this.#charged(this.#morning(aircraft), aircraft, begins_at, time)
+  }
+
+  /** The charge on the ground before a leg departs. */
+  before(leg: number, time: Seconds): number {
+    const { aircraft, from } = at(this.record.legs, leg)
+    return this.#charged(at(this.#before, leg), aircraft, from, time)
+  }
+
+  departing(leg: number): number {
+    return at(this.#departs, leg)
+  }
+
+  arriving(leg: number): number {
+    return at(this.#arrives, leg)
+  }
+
+  /** The charge on the ground after a leg has arrived, or during a hold. */
+  after(leg: number, time: Seconds): number {
+    const { aircraft, to, arrives } = at(this.record.legs, leg)
+    return this.#charged({ share: at(this.#arrives, leg), since: arrives }, aircraft, to, time)
+  }
+
+  /** When the battery is full after a leg has arrived, if the aircraft stays. */
+  fullAfter(leg: number): Seconds {
+    const { aircraft, to, arrives } = at(this.record.legs, leg)
+    const { battery_kwh } = at(this.record.aircraft, aircraft)
+    return arrives + this.#rate(aircraft, to).seconds(at(this.#arrives, leg) * battery_kwh, battery_kwh)
+  }
+
+  #morning(aircraft: number): Known {
+    const { start_charge_kwh, battery_kwh } = at(this.record.aircraft, aircraft)
+    const share = start_charge_kwh === undefined ? 1 : start_charge_kwh / battery_kwh
+    return { share, since: this.record.start }
+  }
+
+  /** Enters a leg, and returns the charge after it. */
+  #estimate(leg: LegRecord, index: number, latest: Known): Known {
+    const { aircraft, from, to, decided, departs, arrives } = leg
+    const { battery_kwh, energy_kwh_per_mi } = at(this.record.aircraft, aircraft)
+    const known = leg.charge_kwh
+    const before = known === undefined ? latest : { share: known / battery_kwh, since: decided }
+    this.#before[index] = before
+    const departing = this.#charged(before, aircraft, from, departs)
+    this.#departs[index] = departing
+    const energy_kwh = leg.energy_kwh ?? energy_kwh_per_mi * this.geography.distance(from, to)
+    const arriving = isHold(leg) ? departing : Math.max(0, departing - energy_kwh / battery_kwh)
+    const share = leg.lands_with_kwh === undefined ? arriving : leg.lands_with_kwh / battery_kwh
+    this.#arrives[index] = share
+    return { share, since: arrives }
+  }
+
+  #charged({ share, since }: Known, aircraft: number, vertiport: number, time: Seconds): number {
+    if (share >= 1) return 1
+    const { battery_kwh } = at(this.record.aircraft, aircraft)
+    return this.#rate(aircraft, vertiport).after(share * battery_kwh, time - since) / battery_kwh
+  }
+
+  #rate(aircraft: number, vertiport: number): ChargeRate {
+    const { vertiports } = this.record
+    const place = aircraft * vertiports.length + vertiport
+    const { charger_kw } = at(vertiports, vertiport)
+    return (this.#rates[place] ??= new ChargeRate(at(this.record.aircraft, aircraft), charger_kw))
+  }
+}
