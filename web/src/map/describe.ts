@@ -3,7 +3,7 @@
 import { at } from '../model/arrays'
 import { latenessOf, minutesOverdue } from '../model/awaited'
 import { isHold, type LegRecord, type Seconds } from '../model/record'
-import { percent } from '../model/money'
+import { count, percent } from '../model/money'
 import { NONE, Phase } from '../model/motion'
 import type { Target } from '../model/target'
 import { clock, clockMinutes } from '../model/time'
@@ -25,13 +25,13 @@ export function describe(scene: Scene, target: Target): string[] {
     : describeAircraft(scene, target.aircraft)
 }
 
-function describeAircraft({ record, frame }: Scene, aircraft: number): string[] {
-  const { id, type, seats } = at(record.aircraft, aircraft)
+function describeAircraft({ record, frame, fleet }: Scene, aircraft: number): string[] {
+  const { id, type, seats, battery_kwh } = at(record.aircraft, aircraft)
   const phase = at(frame.phases, aircraft) as Phase
   const leg = record.legs[at(frame.legs, aircraft)]
   const stands = at(frame.stands, aircraft)
   const place = stands === NONE ? '' : ` ${text.map.at(at(record.vertiports, stands).id)}`
-  const lines = [text.map.aircraftOfType(id, type), `${text.map.phases[phaseNames[phase]]}${place}`]
+  const lines = [text.map.aircraftOfType(id, type), `${phaseOf(leg, phase, frame.time)}${place}`]
   if (leg !== undefined)
     lines.push(
       ...describeLeg(
@@ -42,8 +42,19 @@ function describeAircraft({ record, frame }: Scene, aircraft: number): string[] 
         seats,
       ),
     )
-  lines.push(text.map.charge(percent(at(frame.charges, aircraft))))
-  return lines
+  const share = at(frame.charges, aircraft)
+  if (record.chargesAsNeeded !== true) return [...lines, text.map.charge(percent(share))]
+  if (phase !== Phase.flying)
+    return [...lines, text.map.chargeOf(count(share * battery_kwh), count(battery_kwh))]
+  const landing = fleet.charges.arriving(at(frame.legs, aircraft))
+  return [...lines, text.aircraft.landsWith(count(landing * battery_kwh))]
+}
+
+/** What an aircraft does; one that waits for charge is not delayed. */
+function phaseOf(leg: LegRecord | undefined, phase: Phase, time: Seconds): string {
+  if (phase === Phase.delayed && leg?.charged !== undefined && time < leg.charged)
+    return text.map.chargesForFlight
+  return text.map.phases[phaseNames[phase]]
 }
 
 function describeLeg(leg: LegRecord, phase: Phase, time: Seconds, names: string[], seats: number): string[] {

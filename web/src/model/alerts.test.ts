@@ -23,6 +23,7 @@ function leg(more: Partial<LegRecord>): LegRecord {
 }
 
 interface Given {
+  chargesAsNeeded?: boolean
   legs?: LegRecord[]
   closures?: DayRecord['closures']
   outages?: DayRecord['outages']
@@ -41,13 +42,15 @@ function alerts(given: Given, time = SEVEN): Alert[] {
     legs: given.legs ?? [],
     closures: given.closures ?? [],
     outages: given.outages ?? [],
+    chargesAsNeeded: given.chargesAsNeeded,
   } as unknown as DayRecord
   const state = {
     vertiports: ids.map((id, at) => ({ id, stands: 6, taken: given.taken?.[at] ?? 0, closed: [] })),
     notices: given.notices ?? [],
   } as unknown as DayState
   const distance_mi = ids.map(() => ids.map(() => given.distance_mi ?? 20))
-  const scenario = { distance_mi } as unknown as Scenario
+  const aircraft_types = [{ id: 'midnight', reserve_kwh: 20 }]
+  const scenario = { distance_mi, aircraft_types } as unknown as Scenario
   return alertsOf({ scenario, state, record, events: given.events ?? [], time })
 }
 
@@ -94,6 +97,16 @@ describe('alerts', () => {
     const flight = leg({ awaited: { report: 'landing', due: SEVEN + 600 } })
     const low = alerts({ legs: [flight], distance_mi: 66.5 })
     expect(low.map(({ matter }) => matter)).toEqual([
+      { kind: 'low_charge', aircraft: 'A01', to: 'V2', percent: 5 },
+    ])
+  })
+
+  it('name flights below their reserve on a day that charges as needed', () => {
+    const flight = (lands_with_kwh: number) =>
+      leg({ awaited: { report: 'landing', due: SEVEN + 600 }, lands_with_kwh })
+    const of = (kwh: number) => alerts({ chargesAsNeeded: true, legs: [flight(kwh)], distance_mi: 66.5 })
+    expect(of(20)).toEqual([])
+    expect(of(7).map(({ matter }) => matter)).toEqual([
       { kind: 'low_charge', aircraft: 'A01', to: 'V2', percent: 5 },
     ])
   })

@@ -3,7 +3,7 @@
 
 import type { DayState, TakenEvent } from '../api/types'
 import { minutesOverdue } from './awaited'
-import type { DayRecord, LegRecord, Seconds } from './record'
+import type { AircraftRecord, DayRecord, LegRecord, Seconds } from './record'
 import { isHold } from './record'
 import type { Scenario } from './scenario'
 import type { Target } from './target'
@@ -37,6 +37,8 @@ export interface Alert {
 const LONG_OVERDUE_MIN = 15
 /** A flight that lands with a smaller share of its battery raises an alert. */
 const LOW_CHARGE = 0.1
+/** The service counts whole milliwatt-hours. */
+const ROUNDING_KWH = 1e-5
 
 interface Sources {
   scenario: Scenario
@@ -130,9 +132,11 @@ function outOfService({ record, time }: Sources): Alert[] {
 function lowCharge(leg: LegRecord, { record, scenario }: Sources): Alert[] {
   const aircraft = record.aircraft[leg.aircraft]
   if (leg.awaited === undefined || isHold(leg) || aircraft === undefined) return []
+  if (record.chargesAsNeeded === true && !isBelowReserve(leg, aircraft, scenario)) return []
   const used_kwh = (scenario.distance_mi[leg.from]?.[leg.to] ?? 0) * aircraft.energy_kwh_per_mi
-  const left = 1 - used_kwh / aircraft.battery_kwh
-  if (left >= LOW_CHARGE) return []
+  const left_kwh = leg.lands_with_kwh ?? aircraft.battery_kwh - used_kwh
+  const left = left_kwh / aircraft.battery_kwh
+  if (record.chargesAsNeeded !== true && left >= LOW_CHARGE) return []
   const [to, percent] = [record.vertiports[leg.to]?.id ?? '', Math.max(0, Math.round(100 * left))]
   return [
     {
@@ -143,6 +147,19 @@ function lowCharge(leg: LegRecord, { record, scenario }: Sources): Alert[] {
       target: { kind: 'aircraft', aircraft: leg.aircraft },
     },
   ]
+}
+
+/**
+ * Whether a flight lands with less than its reserve. Where aircraft charge as needed, a flight that
+ * lands with no more than that is as planned.
+ */
+function isBelowReserve(
+  { lands_with_kwh }: LegRecord,
+  { type }: AircraftRecord,
+  { aircraft_types }: Scenario,
+): boolean {
+  const reserve_kwh = aircraft_types.find(({ id }) => id === type)?.reserve_kwh ?? 0
+  return lands_with_kwh !== undefined && lands_with_kwh < reserve_kwh - ROUNDING_KWH
 }
 
 /**

@@ -1,6 +1,9 @@
 // Access to arrays at positions that are known to exist. TypeScript would require a check at every
 // access, and pictures read some thousand numbers a frame.
 
+/** No index: an aircraft without a leg, or one in the air and thus at no vertiport. */
+export const NONE = -1
+
 /** The element at a position that exists. */
 export function at<T>(array: ArrayLike<T>, index: number): T {
   return array[index] as T

@@ -3,6 +3,8 @@
 
 import { at } from './arrays'
 import { minutesOverdue } from './awaited'
+import { Charges } from './charges'
+import { Geography } from './geography'
 import { NONE } from './motion'
 import { roomOf, staysOf, type Stay } from './occupancy'
 import type { DayRecord, LegRecord, Seconds } from './record'
@@ -21,6 +23,8 @@ export interface Bar {
   /** The load factor of a flight. */
   load: number
   isExpected: boolean
+  /** The charge at its beginning and end, as shares; only on days that charge as needed. */
+  charge?: { begins: number; ends: number }
   /** When the missing report of the bar's end was due; absent if it is not overdue. */
   overdueSince?: Seconds
 }
@@ -62,7 +66,8 @@ export function fleetRows(record: DayRecord): FleetRow[] {
     outages: [],
     plans: [],
   }))
-  record.legs.forEach((leg, index) => addLeg(at(rows, leg.aircraft), record, leg, index))
+  const charges = chargesOf(record)
+  record.legs.forEach((leg, index) => addLeg(at(rows, leg.aircraft), record, leg, index, charges))
   for (const { aircraft, since, until } of record.outages) {
     const outage = { kind: 'outage', begins: since, ends: until ?? Infinity } as const
     at(rows, aircraft).outages.push({ ...outage, aircraft, leg: NONE, load: 0, isExpected: false })
@@ -70,21 +75,36 @@ export function fleetRows(record: DayRecord): FleetRow[] {
   return rows
 }
 
-function addLeg(row: FleetRow, record: DayRecord, leg: LegRecord, index: number): void {
+/** The charges of a day that charges as needed; on other days bars have none. */
+function chargesOf(record: DayRecord): Charges | undefined {
+  return record.chargesAsNeeded === true ? new Charges(record, new Geography(record.vertiports)) : undefined
+}
+
+function addLeg(
+  row: FleetRow,
+  record: DayRecord,
+  leg: LegRecord,
+  index: number,
+  charges: Charges | undefined,
+): void {
   const { aircraft, decided, departs, arrives, ready } = leg
   const load = Math.min(1, leg.passengers / at(record.aircraft, aircraft).seats)
   const common = { aircraft, leg: index, load, isExpected: leg.is_expected }
-  const add = (kind: BarKind, begins: Seconds, ends: Seconds, more: { overdueSince?: Seconds } = {}) => {
+  const add = (kind: BarKind, begins: Seconds, ends: Seconds, more: Partial<Bar> = {}) => {
     if (ends > begins) row.bars.push({ kind, begins, ends, ...common, ...more })
   }
+  const shades = (side: 'before' | 'after', begins: Seconds, ends: Seconds) =>
+    charges === undefined ? {} : { charge: charges.span(side, index, begins, ends) }
   if (isHold(leg)) {
-    add('hold', decided, ready)
+    add('hold', decided, ready, shades('before', decided, ready))
     return
   }
   const isDeparture = leg.awaited?.report === 'departure'
-  add('delay', decided, departs, isDeparture ? overdueOf(leg) : {})
+  const charged = leg.charged === undefined ? decided : Math.min(leg.charged, departs)
+  add('charge', decided, charged, shades('before', decided, charged))
+  add('delay', charged, departs, isDeparture ? overdueOf(leg) : {})
   add('flight', departs, arrives, isDeparture ? {} : overdueOf(leg))
-  add('charge', arrives, ready)
+  add('charge', arrives, ready, shades('after', arrives, ready))
   if (leg.planned !== undefined) row.plans.push({ ...leg.planned, leg: index })
 }
 
@@ -95,13 +115,14 @@ function overdueOf(leg: LegRecord | undefined): { overdueSince?: Seconds } {
 
 /** A row for each stand, vertiport by vertiport. */
 export function standRows(record: DayRecord): StandRow[] {
+  const charges = chargesOf(record)
   const byVertiport: Stay[][] = record.vertiports.map(() => [])
   for (const stay of staysOf(record)) at(byVertiport, stay.vertiport).push(stay)
   return record.vertiports.flatMap((one, vertiport) => {
     const room = roomOf(one)
     const lanes = assignStands(at(byVertiport, vertiport), room)
     return lanes.map((stays, stand): StandRow => {
-      const bars = stays.flatMap((stay) => barsOf(stay, record))
+      const bars = stays.flatMap((stay) => barsOf(stay, record, charges))
       const outages = stays.flatMap((stay) => outagesOf(stay, record))
       return { vertiport, stand, isOver: stand >= room, bars, outages }
     })
@@ -122,19 +143,25 @@ function assignStands(stays: readonly Stay[], room: number): Stay[][] {
   return lanes
 }
 
-function barsOf(stay: Stay, record: DayRecord): Bar[] {
+function barsOf(stay: Stay, record: DayRecord, charges: Charges | undefined): Bar[] {
   const { aircraft, leg } = stay
   const flight = record.legs[leg]
   const common = { aircraft, leg, load: 0, isExpected: flight?.is_expected ?? false }
+  // On days that charge as needed, an aircraft charges as long as it stays and is not full.
+  const charged = charges === undefined ? stay.ready : Math.ceil(charges.fullAfter(leg, aircraft))
+  const begin = charges === undefined ? -Infinity : record.start
+  const shades = (begins: Seconds, ends: Seconds) =>
+    charges === undefined ? {} : { charge: charges.spanOfStay(leg, aircraft, begins, ends) }
   const spans: [BarKind, Seconds, Seconds][] = [
     ['promised', stay.promised, Math.min(stay.arrives, stay.leaves)],
-    ['charge', stay.arrives, Math.min(stay.ready, stay.leaves)],
-    ['standing', Math.max(stay.ready, record.start), stay.leaves],
+    ['charge', Math.max(stay.arrives, begin), Math.min(charged, stay.leaves)],
+    ['standing', Math.max(charged, record.start), stay.leaves],
   ]
   const there = spans.filter(([, begins, ends]) => ends > begins)
   return there.map(([kind, begins, ends]) => {
     const overdue = kind === 'promised' ? overdueOf(flight) : {}
-    return { kind, begins, ends, ...common, ...overdue }
+    const charge = kind === 'charge' ? shades(begins, ends) : {}
+    return { kind, begins, ends, ...common, ...overdue, ...charge }
   })
 }
 

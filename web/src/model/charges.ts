@@ -2,7 +2,7 @@
 // with the charge of the morning. A flight takes its energy, and charging begins at arrival and
 // ends at take-off. Charges that are known, by a trace or by the service, replace estimates.
 
-import { at } from './arrays'
+import { at, NONE } from './arrays'
 import type { Geography } from './geography'
 import { ChargeRate } from './rate'
 import type { DayRecord, LegRecord, Seconds } from './record'
@@ -12,6 +12,11 @@ import { isHold } from './record'
 interface Known {
   share: number
   since: Seconds
+}
+
+interface Span {
+  begins: number
+  ends: number
 }
 
 export class Charges {
@@ -60,11 +65,26 @@ export class Charges {
     return this.#charged({ share: at(this.#arrives, leg), since: arrives }, aircraft, to, time)
   }
 
-  /** When the battery is full after a leg has arrived, if the aircraft stays. */
-  fullAfter(leg: number): Seconds {
-    const { aircraft, to, arrives } = at(this.record.legs, leg)
-    const { battery_kwh } = at(this.record.aircraft, aircraft)
-    return arrives + this.#rate(aircraft, to).seconds(at(this.#arrives, leg) * battery_kwh, battery_kwh)
+  /** The charges at two times on the ground, before or after a leg. */
+  span(side: 'before' | 'after', leg: number, begins: Seconds, ends: Seconds): Span {
+    return { begins: this[side](leg, begins), ends: this[side](leg, ends) }
+  }
+
+  /** The charges at two times of a stay: after a leg, or NONE in the morning. */
+  spanOfStay(leg: number, aircraft: number, begins: Seconds, ends: Seconds): Span {
+    if (leg !== NONE) return this.span('after', leg, begins, ends)
+    return { begins: this.atStart(aircraft, begins), ends: this.atStart(aircraft, ends) }
+  }
+
+  /** When the battery is full if the aircraft stays after a leg, or NONE in the morning. */
+  fullAfter(leg: number, aircraft: number): Seconds {
+    const { battery_kwh, begins_at } = at(this.record.aircraft, aircraft)
+    const { share, since } =
+      leg === NONE
+        ? this.#morning(aircraft)
+        : { share: at(this.#arrives, leg), since: at(this.record.legs, leg).arrives }
+    const rate = this.#rate(aircraft, this.record.legs[leg]?.to ?? begins_at)
+    return since + rate.seconds(share * battery_kwh, battery_kwh)
   }
 
   #morning(aircraft: number): Known {

@@ -1,15 +1,67 @@
 import { describe, expect, it } from 'vitest'
-import type { DayState, Outlook } from '../api/types'
+import type { AircraftState, DayState, Outlook, TakenEvent } from '../api/types'
 import { east, events, north, outlook, recordAfter, scenario, south, state } from './fixtures/liveDay'
 import { liveRecord } from './live'
 import { isHold } from './record'
 import { Reports } from './reports'
-import { timeOf } from './time'
+import { clock, timeOf } from './time'
 
 const [a01, a02, a03, a04, a05] = [0, 1, 2, 3, 4]
 
 const record = recordAfter()
 const taken = (aircraft: number) => record.legs.filter((leg) => leg.aircraft === aircraft && !leg.is_expected)
+
+describe('a live day that charges as needed', () => {
+  const asNeeded = { ...scenario, operations: { ...scenario.operations, charging: 'as_needed' as const } }
+  const decided: TakenEvent[] = [
+    { seq: 1, event: { type: 'decided', time: '06:47:00', aircraft: 'A03', to: 'North' } },
+  ] as unknown as TakenEvent[]
+
+  /** The flight of A03, whose charge suffices twelve minutes after its decision. */
+  function flightOfA03(events = decided) {
+    const reports = new Reports(asNeeded)
+    for (const event of events) reports.take(event)
+    const aircraft = state.aircraft
+      .filter(({ id }) => id === 'A03')
+      .map((one): AircraftState => {
+        const flight = { from: 'East', to: 'North', passengers: 4, decided: '06:47:00', takeoff: '06:59:00' }
+        return { ...one, phase: 'sent_off', arrival: '07:44:21', lands_with_kwh: 12, flight }
+      })
+    const { legs } = liveRecord({
+      ...{ scenario: asNeeded, reports, state: { ...state, aircraft }, outlook: undefined, flown: [] },
+    })
+    return legs.find((leg) => leg.aircraft === a03)
+  }
+
+  it('departs when the charge suffices', () => {
+    const flight = flightOfA03()
+    const takeoff = timeOf('06:59:00')
+    expect(flight).toMatchObject({
+      decided: timeOf('06:47:00'),
+      ...{ charged: takeoff, departs: takeoff, lands_with_kwh: 12 },
+      awaited: { report: 'departure', due: takeoff },
+    })
+  })
+
+  it('has the charge of a reported landing', () => {
+    const landed = [
+      { seq: 2, event: { type: 'departed', time: '06:59:00', aircraft: 'A03' } },
+      { seq: 3, event: { type: 'landed', time: '07:40:00', aircraft: 'A03', charge_kwh: 9.5 } },
+    ] as unknown as TakenEvent[]
+    expect(flightOfA03([...decided, ...landed])?.lands_with_kwh).toBe(9.5)
+  })
+
+  it('takes off in the outlook as long before the landing as the flight takes', () => {
+    const reports = new Reports(asNeeded)
+    const legs = outlook.legs.filter((leg) => leg.aircraft === 'A03' && leg.from !== leg.to)
+    const later = legs.map((leg) => ({ ...leg, arrival: clock(timeOf(leg.arrival) + 600) }))
+    const given = { scenario: asNeeded, reports, state: { ...state, aircraft: [] }, flown: [] }
+    const record = liveRecord({ ...given, outlook: { ...outlook, legs: later } })
+    expect(record.legs.length).toBeGreaterThan(1)
+    for (const leg of record.legs) expect(leg.departs).toBe(leg.charged)
+    expect(record.legs.some((leg) => leg.departs >= leg.decided + 600)).toBe(true)
+  })
+})
 
 describe('the record of a live day', () => {
   it('has every leg of the outlook, in the order of decisions', () => {

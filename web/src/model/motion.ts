@@ -1,12 +1,14 @@
 // The position, phase and approximate charge of every aircraft at a time. A fleet is prepared once
 // per record. After that a frame only searches the legs of each aircraft and allocates nothing.
 
-import { at, countUpTo } from './arrays'
+import { at, countUpTo, NONE } from './arrays'
 import { latenessOf, minutesOverdue } from './awaited'
 import { Charges } from './charges'
 import { Geography } from './geography'
 import type { DayRecord, LegRecord, Seconds } from './record'
 import { isHold } from './record'
+
+export { NONE }
 
 /** The phase of an aircraft. */
 export const Phase = {
@@ -21,9 +23,6 @@ export const Phase = {
   out: 5,
 } as const
 export type Phase = (typeof Phase)[keyof typeof Phase]
-
-/** No index: an aircraft without a leg, or one in the air and thus at no vertiport. */
-export const NONE = -1
 
 /** The fleet at one time, with one element for each aircraft. */
 export class FleetFrame {

@@ -63,7 +63,9 @@ export const map = {
   at: (vertiport: string) => `at ${vertiport}`,
   seats: (passengers: number, seats: number) => `${passengers} of ${seats} seats`,
   empty: 'no passengers',
+  chargesForFlight: 'charging for its flight',
   charge: (share: string) => `about ${share} charged`,
+  chargeOf: (kwh: string, battery: string) => `about ${kwh} kWh of ${battery}`,
   lands: (time: string) => `lands ${time}`,
   readyAt: (time: string) => `ready ${time}`,
   holdsUntil: (time: string) => `until ${time}`,
@@ -117,6 +119,7 @@ export const timeline = {
     standing: 'stands',
   },
   times: (begins: string, ends: string) => `${begins} to ${ends}`,
+  charges: (begins: string, ends: string) => `from ${begins} to ${ends} kWh`,
   since: (begins: string) => `since ${begins}`,
   planned: (departs: string, arrives: string, ready: string) =>
     `planned ${departs} to ${arrives}, ready ${ready}`,

@@ -4,7 +4,7 @@ import { at } from '../model/arrays'
 import { minutesOverdue } from '../model/awaited'
 import type { Bar } from '../model/bars'
 import type { DifferingLegs } from '../model/differ'
-import { dollarsAndCents } from '../model/money'
+import { count, dollarsAndCents } from '../model/money'
 import { isHold, type DayRecord, type LegRecord } from '../model/record'
 import { clock } from '../model/time'
 import { text } from '../text/text'
@@ -22,10 +22,18 @@ export function describeBar(record: DayRecord, bar: Bar, otherPlay?: OtherPlay):
   const begins = clock(Math.max(bar.begins, record.start))
   const times = isEndless ? text.timeline.since(begins) : text.timeline.times(begins, clock(bar.ends))
   const leg = record.legs[bar.leg]
-  const own = `${text.timeline.kinds[bar.kind]} ${times}`
+  const own = [`${text.timeline.kinds[bar.kind]} ${times}`, ...chargeOf(record, bar)].join(', ')
   return leg === undefined
     ? [id, own]
     : [`${id} · ${nameOf(record, leg)}`, own, ...details(record, leg, otherPlay)]
+}
+
+/** The charge at the beginning and the end of a bar, on a day that charges as needed. */
+function chargeOf({ aircraft }: DayRecord, { charge, aircraft: one }: Bar): string[] {
+  if (charge === undefined) return []
+  const { battery_kwh } = at(aircraft, one)
+  const [begins, ends] = [charge.begins * battery_kwh, charge.ends * battery_kwh]
+  return [text.timeline.charges(count(begins), count(ends))]
 }
 
 /** A leg in one sentence, for screen readers. */

@@ -45,6 +45,10 @@ const HALO_PX = 3
 const MARK_PX = 2
 const PALE_MARK = 0.35
 
+/** The opacity of charging, of an empty battery and of a full one. */
+const EMPTY_SHADE = 0.25
+const FULL_SHADE = 1
+
 interface Look {
   colour: ColourName
   /** The share of the row's height, and the position in it: 0 at the top, 1 at the bottom. */
@@ -187,13 +191,24 @@ class RowPainter {
     const isChosen = isOfLeg(picture.record, bar.leg, picture.selected)
     const colour = colours[isChosen ? 'accent' : look.colour]
     context.globalAlpha = bar.isExpected ? EXPECTED : 1
-    context.fillStyle = css(colour, look.fill * fillOfBar(bar))
+    context.fillStyle =
+      bar.kind === 'charge' && bar.charge !== undefined
+        ? this.#shade(bar.charge, left, right, colour)
+        : css(colour, look.fill * fillOfBar(bar))
     context.beginPath()
     context.roundRect(left, y, width, height, Math.min(2.5, width / 2))
     context.fill()
     if (look.hasLine && width > 2) this.#outline(bar, width, css(colour), isChosen)
     context.globalAlpha = 1
     if (bar.kind === 'outage') this.#hatch(left, y, width, height, css(colour, 0.5))
+  }
+
+  /** The darker, the more the battery holds. */
+  #shade({ begins, ends }: NonNullable<Bar['charge']>, left: number, right: number, colour: Rgb) {
+    const gradient = this.context.createLinearGradient(left, 0, Math.max(right, left + 1), 0)
+    gradient.addColorStop(0, css(colour, EMPTY_SHADE + (FULL_SHADE - EMPTY_SHADE) * begins))
+    gradient.addColorStop(1, css(colour, EMPTY_SHADE + (FULL_SHADE - EMPTY_SHADE) * ends))
+    return gradient
   }
 
   /**

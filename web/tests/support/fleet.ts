@@ -1,7 +1,15 @@
 // A fleet that flies as expected: it reports departures and landings, and leaves decisions to the
 // console.
 
-import type { DayInfo, DayList, DayState, Event, NewDay, TakenEvent } from '../../src/api/types'
+import type {
+  AircraftState,
+  DayInfo,
+  DayList,
+  DayState,
+  Event,
+  NewDay,
+  TakenEvent,
+} from '../../src/api/types'
 import { clock, timeOf } from '../../src/model/time'
 
 /** A small network: fast to play, and with vertiports that fill up. */
@@ -160,9 +168,12 @@ export class Fleet {
     for (;;) {
       const state = await this.state()
       if (state.aircraft.some((one) => one.needs_decision)) return true
-      const sentOff = state.aircraft.filter((one) => one.phase === 'sent_off')
+      // An aircraft that waits for charge departs later.
+      const sentOff = state.aircraft.filter(
+        (one) => one.phase === 'sent_off' && takeoffOf(one) <= timeOf(state.now),
+      )
       await this.#report(
-        sentOff.map((one) => ({ type: 'departed', aircraft: one.id, time: one.flight?.decided ?? null })),
+        sentOff.map((one) => ({ type: 'departed', aircraft: one.id, time: clock(takeoffOf(one)) })),
       )
       const next = nextOf(state)
       if (next === undefined) return false
@@ -175,9 +186,17 @@ export class Fleet {
   }
 }
 
+/** When an aircraft that was sent off takes off: at its decision, or when its charge suffices. */
+function takeoffOf({ flight }: AircraftState): number {
+  return timeOf(flight?.takeoff ?? flight?.decided ?? 0)
+}
+
 /** The next event if all goes as expected; undefined if all aircraft stand until the end. */
 function nextOf(state: DayState): Event | undefined {
   const now = timeOf(state.now)
+  const departures = state.aircraft
+    .filter((one) => one.phase === 'sent_off' && takeoffOf(one) > now)
+    .map((one) => ({ at: takeoffOf(one), event: { type: 'departed', aircraft: one.id } as const }))
   const landings = state.aircraft
     .filter((one) => one.phase !== 'standing')
     .map((one) => ({
@@ -187,6 +206,6 @@ function nextOf(state: DayState): Event | undefined {
   const charged = state.aircraft
     .filter((one) => one.phase === 'standing' && timeOf(one.ready) > now)
     .map((one) => ({ at: timeOf(one.ready), event: { type: 'clock' } as const }))
-  const [first] = [...landings, ...charged].sort((one, other) => one.at - other.at)
+  const [first] = [...departures, ...landings, ...charged].sort((one, other) => one.at - other.at)
   return first === undefined ? undefined : { ...first.event, time: clock(first.at) }
 }
