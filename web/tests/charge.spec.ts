@@ -67,7 +67,7 @@ test('a reserve is part of what a flight needs, and a landing may have its charg
   await page.keyboard.press('e')
   const dialog = page.getByRole('dialog')
   await dialog.getByLabel('What happened').selectOption('landed')
-  await dialog.getByLabel('Aircraft').selectOption(flying)
+  await dialog.getByLabel(/^Aircraft/).selectOption(flying)
   await dialog.getByLabel('Charge of its battery').fill('33.5')
   await dialog.getByRole('button', { name: 'Report' }).click()
   await expect(page.getByText(new RegExp(`^${flying} has landed.* with 33.5 kWh`))).toBeVisible()
