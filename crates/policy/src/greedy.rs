@@ -14,8 +14,17 @@ impl Greedy {
     /// The feasible flight with the highest profit per hour, or a hold if no flight earns anything.
     #[inline]
     pub(crate) fn flight_or_hold(view: View<'_>, decision: &Decision) -> VertiportIx {
-        let mut best = (decision.at, 0.0);
-        for (to, rate) in Self::rates(view, decision) {
+        if view.charges_as_needed() {
+            return Self::best(decision.at, Self::rates_by_charge(view, decision));
+        }
+        Self::best(decision.at, Self::rates(view, decision))
+    }
+
+    /// The first of the highest rates above 0, or a hold.
+    #[inline]
+    fn best(own: VertiportIx, rates: impl Iterator<Item = (VertiportIx, f64)>) -> VertiportIx {
+        let mut best = (own, 0.0);
+        for (to, rate) in rates {
             if rate > best.1 {
                 best = (to, rate);
             }
@@ -33,13 +42,23 @@ impl Greedy {
         let departures = view.departures(decision.time, kind, decision.at);
         let waiting = &view.demand_left_in(view.period())[decision.at.at() * view.vertiports()..];
         view.feasible(decision).iter().filter(|&to| to != decision.at).map(move |to| {
-            if view.charges_as_needed() {
-                let Outcome { takeoff, ready, .. } = view.outcome(decision, to);
-                let profit_usd = departures.profit_from_usd(takeoff, to, waiting[to.at()]);
-                return (to, profit_usd / f64::from(ready.since(decision.time)));
-            }
             let profit_usd = departures.profit_usd(to, waiting[to.at()]);
             (to, profit_usd / f64::from(departures.block_s(to)))
+        })
+    }
+
+    /// The same where flights may wait for charge.
+    #[inline(never)]
+    fn rates_by_charge<'a>(
+        view: View<'a>,
+        decision: &'a Decision,
+    ) -> impl Iterator<Item = (VertiportIx, f64)> + 'a {
+        let departures = view.departures(decision.time, view.kind(decision.aircraft), decision.at);
+        let waiting = &view.demand_left_in(view.period())[decision.at.at() * view.vertiports()..];
+        view.feasible(decision).iter().filter(|&to| to != decision.at).map(move |to| {
+            let Outcome { takeoff, ready, .. } = view.outcome(decision, to);
+            let profit_usd = departures.profit_from_usd(takeoff, to, waiting[to.at()]);
+            (to, profit_usd / f64::from(ready.since(decision.time)))
         })
     }
 }
@@ -59,8 +78,11 @@ impl Policy for Greedy {
     ) -> Result<(), PolicyError> {
         values.fill(f64::NAN);
         values[decision.at.at()] = 0.0;
-        for (to, rate) in Self::rates(*view, decision) {
-            values[to.at()] = 3_600.0 * rate;
+        let mut enter = |(to, rate): (VertiportIx, f64)| values[to.at()] = 3_600.0 * rate;
+        if view.charges_as_needed() {
+            Self::rates_by_charge(*view, decision).for_each(&mut enter);
+        } else {
+            Self::rates(*view, decision).for_each(&mut enter);
         }
         Ok(())
     }

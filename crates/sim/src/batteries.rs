@@ -6,7 +6,7 @@
 use vertifleet_core::{AircraftIx, Charging, Scenario, Time, VertiportIx, whole_mwh};
 
 use crate::room::clone_into_room;
-use crate::{Decision, Simulation, VertiportSet};
+use crate::{Decision, Leg, Simulation, VertiportSet};
 
 /// The charge of each aircraft at its latest landing, decided or done.
 #[derive(Debug, Default)]
@@ -88,7 +88,8 @@ impl Simulation {
     }
 
     /// Of some vertiports, those for which the charge suffices by the end of operations.
-    pub(crate) fn charged_in_time(&self, decision: &Decision, of: &VertiportSet) -> VertiportSet {
+    #[cold]
+    pub(crate) fn charged_in_time(&self, decision: &Decision, of: VertiportSet) -> VertiportSet {
         let end = self.scenario.operations.end;
         let is_full = |by| {
             let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
@@ -96,18 +97,35 @@ impl Simulation {
             self.charge_mwh(decision.aircraft, by) >= full_mwh
         };
         if is_full(end) {
-            return *of;
+            return of;
         }
         of.iter().filter(|&to| self.takes_off_in_time(decision, to)).collect()
     }
 
+    /// When a flight takes off, and the charge at its decision, kWh.
+    #[cold]
+    pub(crate) fn takeoff_and_charge(&self, decision: &Decision, to: VertiportIx) -> (Time, f64) {
+        let charge_mwh = self.charge_mwh(decision.aircraft, decision.time);
+        (self.takeoff(decision, to), charge_mwh as f64 / 1e6)
+    }
+
+    /// Enters the charge with which a flight lands at a time.
+    #[cold]
+    pub(crate) fn discharge(&mut self, aircraft: AircraftIx, arrival: Time, leg: &Leg) {
+        let left = Time::from_seconds(arrival.seconds() - leg.flight_s);
+        let mwh = self.lands_with_mwh(aircraft, left, leg.energy_kwh);
+        self.batteries.land(aircraft, mwh);
+    }
+
     /// Whether the charge suffices for a flight by the end of operations.
+    #[cold]
     pub(crate) fn takes_off_in_time(&self, decision: &Decision, to: VertiportIx) -> bool {
         self.takeoff(decision, to) <= self.scenario.operations.end
     }
 
     /// Lets an aircraft hold, which leaves its charger only if its battery is full. Returns its
     /// charge, kWh.
+    #[cold]
     pub(crate) fn hold_charging(&mut self, decision: &Decision) -> f64 {
         let Decision { aircraft, at, time, .. } = *decision;
         let kind = self.scenario.aircraft[aircraft.at()].kind;

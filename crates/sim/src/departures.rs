@@ -58,7 +58,8 @@ impl<'a> Departures<'a> {
     }
 
     /// The profit of a flight that takes off at a time, which is not before the decision.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "most flights take off at the decision")]
     pub fn profit_from_usd(&self, takeoff: Time, to: VertiportIx, waiting: u32) -> f64 {
         let leg = &self.legs[to.at()];
         let margin_usd = self.fares_usd[to.at()] - self.passenger_costs_usd[to.at()];

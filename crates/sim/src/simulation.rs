@@ -297,8 +297,7 @@ impl Simulation {
         let passengers = self.demand.board(self.period, from, to, seats);
         let (mut takeoff, mut charge_kwh) = (time, 0.0);
         if !self.batteries.are_always_full() {
-            takeoff = self.takeoff(decision, to);
-            charge_kwh = self.charge_mwh(aircraft, time) as f64 / 1e6;
+            (takeoff, charge_kwh) = self.takeoff_and_charge(decision, to);
         }
         let mut arrival = takeoff + leg.flight_s;
         let mut ready = arrival + leg.ground_s;
@@ -326,9 +325,7 @@ impl Simulation {
             ready,
         };
         if !self.batteries.are_always_full() {
-            let left = Time::from_seconds(arrival.seconds() - leg.flight_s);
-            let mwh = self.lands_with_mwh(aircraft, left, leg.energy_kwh);
-            self.batteries.land(aircraft, mwh);
+            self.discharge(aircraft, arrival, &leg);
         }
         self.stands.transfer(aircraft, from, to);
         self.place[aircraft.at()] = to;
@@ -372,7 +369,7 @@ impl Simulation {
             mask = mask.without(&self.closures.from(decision.at));
         }
         if !self.batteries.are_always_full() {
-            mask = self.charged_in_time(decision, &mask);
+            mask = self.charged_in_time(decision, mask);
         }
         mask.insert(decision.at);
         mask

@@ -79,7 +79,7 @@ export interface LegRecord {
   charged?: Seconds
   /** What the flight takes, if it is not estimated by the mile. */
   energy_kwh?: number
-  /** What the battery holds at the decision and at the landing, as far as that is known. */
+  /** What the battery holds at the decision and at the landing, if that is known. */
   charge_kwh?: number
   lands_with_kwh?: number
   /** The plan at the time of the decision, if the flight went differently. */

@@ -11,7 +11,6 @@ use std::ops::Range;
 use pulp::{Simd, WithSimd};
 
 use super::hops::{Hops, Stay};
-use super::levels::Level;
 use super::quads::{Arrival, QUAD, QuadsOfKind};
 use super::values::HOLD;
 
@@ -30,12 +29,22 @@ pub(super) struct BackwardPass<'a> {
     pub(super) stride: usize,
     /// Levels of charge, each a row of a vertiport.
     pub(super) levels: usize,
-    /// By row: its hold, and the level at which that ends.
-    pub(super) holds: &'a [(Stay, Level)],
+    /// By row.
+    pub(super) holds: &'a [Hold],
     pub(super) paid_usd: &'a [f64],
     pub(super) worth_usd: &'a mut [f64],
     /// By row, then slot.
     pub(super) best: &'a mut [u16],
+}
+
+/// The hold of an aircraft at a vertiport with a level of charge.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hold {
+    pub(super) stay: Stay,
+    /// How far before the row of this level that of the level is at which the hold ends.
+    pub(super) above: usize,
+    /// Where the prices of the vertiport's stands begin.
+    pub(super) paid: usize,
 }
 
 impl WithSimd for BackwardPass<'_> {
@@ -249,10 +258,8 @@ impl BackwardPass<'_> {
         block: &Block,
         (fly_usd, destinations): (&[f64; MOST_LANES], &[u64; MOST_LANES]),
     ) {
-        let (from, level) = (row / self.levels, row % self.levels);
-        let (hold, higher) = self.holds[row];
-        let paid_usd = &self.paid_usd[from * self.stride..][..self.stride];
-        let above = (level - usize::from(higher)) * self.stride;
+        let Hold { stay: hold, above, paid } = self.holds[row];
+        let paid_usd = &self.paid_usd[paid..][..self.stride];
         let own = row * self.stride;
         let (before, worth_usd) = self.worth_usd[..own + self.stride].split_at_mut(own);
         let best = &mut self.best[row * self.slots..][..self.slots];

@@ -102,6 +102,8 @@ impl<'a> Choices<'a> {
     }
 
     /// The same on a day that charges as needed.
+    #[cold]
+    #[inline(never)]
     fn worth_by_charge_usd(&self, charge: &Charge<'_>, to: VertiportIx) -> f64 {
         if to == self.own {
             return self.worths.at_level_usd(self.own, charge.held);

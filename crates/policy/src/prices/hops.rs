@@ -66,8 +66,6 @@ struct Hop {
 pub(super) struct Flight {
     /// Seconds from the decision until the aircraft is ready at the level.
     pub(super) block_s: u32,
-    /// Seconds from the decision until take-off.
-    wait_s: u32,
     pub(super) level: Level,
     /// Position of the hop among all hops, or [`NONE`].
     pub(super) hop: u32,
@@ -125,13 +123,14 @@ impl Hops {
         let intervals = Intervals::of(view, clock);
         let cells = intervals.all.len() * hops.len();
         let kinds = view.aircraft_types().len();
-        let flights = flights(view, &hops, &begins, levels);
+        let (flights, waits_s) = flights(view, &hops, &begins, levels);
         let count = levels.count;
         let quads = Quads::of((kinds, vertiports, count), stride, |kind, row, to| {
             let (from, level) = (row / count, row % count);
             let pair = (kind.at() * vertiports + from) * vertiports + to.at();
             let flight = flights[pair * count + level];
-            let stay = || Stay::of(flight.block_s, clock).taking_off_after(flight.wait_s, clock);
+            let takes_off_s = waits_s.get(pair * count + level).copied().unwrap_or(0);
+            let stay = || Stay::of(flight.block_s, clock).taking_off_after(takes_off_s, clock);
             (flight.hop != NONE).then(|| (stay(), flight.level))
         });
         let mut made = Self {
@@ -266,25 +265,34 @@ impl Hops {
     }
 }
 
-/// The flight of every type and pair, from every level of charge.
-fn flights(view: View<'_>, hops: &[Hop], begins: &[usize], levels: &Levels) -> Vec<Flight> {
+/// The flight of every type and pair, from every level of charge, and the seconds from its decision
+/// until take-off.
+fn flights(
+    view: View<'_>,
+    hops: &[Hop],
+    begins: &[usize],
+    levels: &Levels,
+) -> (Vec<Flight>, Vec<u32>) {
     let (vertiports, count) = (view.vertiports(), levels.count);
     let (pairs, kinds) = (vertiports * vertiports, (begins.len() - 1) / vertiports);
-    let none = Flight { block_s: 0, wait_s: 0, level: 0, hop: NONE };
+    let none = Flight { block_s: 0, level: 0, hop: NONE };
     let mut flights = vec![none; kinds * pairs * count];
+    let mut waits_s = vec![0; flights.len()];
     for kind in TypeIx::all(kinds) {
         let of_kind = begins[kind.at() * vertiports]..begins[(kind.at() + 1) * vertiports];
         for (at, hop) in of_kind.clone().zip(&hops[of_kind]) {
             let from = VertiportIx::new(hop.pair / vertiports);
             let first = (kind.at() * pairs + hop.pair) * count;
-            for (level, flight) in (0..).zip(&mut flights[first..][..count]) {
-                let (wait_s, ready) = ready_after(view, levels, kind, (from, hop.to), level);
+            let cells = flights[first..][..count].iter_mut().zip(&mut waits_s[first..][..count]);
+            for (level, (flight, wait_s)) in (0..).zip(cells) {
+                let (takes_off_s, ready) = ready_after(view, levels, kind, (from, hop.to), level);
                 let hop = u32::try_from(at).expect("a day has few hops");
-                *flight = Flight { block_s: ready.time_s, wait_s, level: ready.level, hop };
+                *wait_s = takes_off_s;
+                *flight = Flight { block_s: ready.time_s, level: ready.level, hop };
             }
         }
     }
-    flights
+    (flights, waits_s)
 }
 
 /// When an aircraft takes off on a flight that is decided at a level of charge, and when and with

@@ -8,7 +8,7 @@ use pulp::Arch;
 use vertifleet_core::{TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
-use super::backward_pass::{BackwardPass, MOST_LANES};
+use super::backward_pass::{BackwardPass, Hold, MOST_LANES};
 use super::clock::{Clock, Place, SLOT_S};
 use super::hops::{Hops, Stay, ready_after_hold};
 use super::levels::{Level, Levels, ReadyAt};
@@ -22,8 +22,8 @@ pub(super) struct ValueTable {
     clock: Clock,
     vertiports: usize,
     levels: usize,
-    /// By type, vertiport, then level: a hold, and the level at which it ends.
-    holds: Vec<(Stay, Level)>,
+    /// By type, vertiport, then level.
+    holds: Vec<Hold>,
     /// Distance from a row to the next in the tables: its boundaries, and padding to read past the
     /// last one.
     stride: usize,
@@ -48,7 +48,9 @@ impl ValueTable {
             for at in VertiportIx::all(vertiports) {
                 for level in (0..).take(levels.count) {
                     let ready = ready_after_hold(view, levels, (kind, at), level);
-                    holds.push((Stay::of(ready.time_s, clock), ready.level));
+                    let stay = Stay::of(ready.time_s, clock);
+                    let above = usize::from(level - ready.level) * stride;
+                    holds.push(Hold { stay, above, paid: at.at() * stride });
                 }
             }
         }
@@ -130,8 +132,8 @@ impl ValueTable {
         WorthsFrom {
             worth_less_paid_usd: &self.worth_less_paid_usd[kind.at() * table..][..table],
             paid_usd: &self.paid_usd,
-            levels: self.levels,
             stride: self.stride,
+            vertiport_stride: self.levels * self.stride,
             clock: &self.clock,
             now: self.clock.place(now_s),
         }
@@ -207,8 +209,9 @@ fn between(row: &[f64], Place { slot, share }: Place) -> f64 {
 pub(super) struct WorthsFrom<'a> {
     worth_less_paid_usd: &'a [f64],
     paid_usd: &'a [f64],
-    levels: usize,
+    /// Distance from a level of charge to the next in the table of worths, and from a vertiport.
     stride: usize,
+    vertiport_stride: usize,
     clock: &'a Clock,
     now: Place,
 }
@@ -221,9 +224,10 @@ impl WorthsFrom<'_> {
     }
 
     /// The same with a level of charge.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "most days have one level")]
     pub(super) fn at_level_usd(&self, place: VertiportIx, ready: ReadyAt) -> f64 {
-        let row = (place.at() * self.levels + usize::from(ready.level)) * self.stride;
+        let row = place.at() * self.vertiport_stride + usize::from(ready.level) * self.stride;
         let row_usd = &self.worth_less_paid_usd[row..row + self.stride];
         let worth_usd = if ready.time_s > self.clock.end_s {
             row_usd[self.clock.slots]
