@@ -353,9 +353,10 @@ pub(crate) struct CompareArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct EvaluateArguments {
-    /// Suites, separated by commas: paper-100, disrupted-100, new-york-100, cities-100, random-50,
-    /// random-places-100, large, or all; random:N is a day of each of the networks random:0 to
-    /// random:N-1, which no training draws and whose bounds are proven first
+    /// Suites, separated by commas: paper-100, disrupted-100, new-york-100, paper-quick-20,
+    /// new-york-quick-20, cities-100, random-50, random-places-100, large, or all; random:N is a
+    /// day of each of the networks random:0 to random:N-1, which no training draws and whose bounds
+    /// are proven first
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "paper-100", value_parser = parse_name)]
     pub(crate) suite: Vec<String>,
     /// Policies, separated by commas, as compare takes them; the others are measured against the

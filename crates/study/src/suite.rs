@@ -78,7 +78,7 @@ const RANDOM: &str = "random:";
 const RANDOM_STEP_MINUTES: u32 = 3;
 
 /// All frozen suites.
-pub const SUITES: [Suite; 7] = [
+pub const SUITES: [Suite; 9] = [
     suite!("paper-100", 100, 1, DrawnFrom::Network("paper"), "100 days of the paper's network"),
     suite!(
         "disrupted-100",
@@ -93,6 +93,20 @@ pub const SUITES: [Suite; 7] = [
         1,
         DrawnFrom::Network("new-york"),
         "100 days of nine sites around New York"
+    ),
+    suite!(
+        "paper-quick-20",
+        20,
+        3,
+        DrawnFrom::Network("paper-quick"),
+        "20 days of the paper's network on which aircraft leave before they are full"
+    ),
+    suite!(
+        "new-york-quick-20",
+        20,
+        3,
+        DrawnFrom::Network("new-york-quick"),
+        "20 days around New York on which aircraft leave before they are full"
     ),
     suite!("cities-100", 100, 1, DrawnFrom::Cities, "20 days of each of five real cities"),
     suite!(

@@ -105,7 +105,9 @@ impl<'a> Proven<'a> {
                 let proven = self.upper_bound_usd() + most_usd - change.cost_usd + ROUNDING_USD;
                 bound.upper_bound_usd().min(proven)
             }
-            Effect::Seat | Effect::TakeOff => bound.upper_bound_usd(),
+            Effect::Seat | Effect::TakeOff | Effect::Battery | Effect::Power => {
+                bound.upper_bound_usd()
+            }
         };
         changed_usd - self.upper_bound_usd()
     }
@@ -118,6 +120,6 @@ fn of_the_day_usd(change: &Change, bound: &Bound) -> Option<f64> {
         Effect::Stand(at) => Some(before_cost_usd - bound.stand_shadow_price_usd(at)),
         Effect::Aircraft(_, at) => Some(before_cost_usd + bound.stand_shadow_price_usd(at)),
         Effect::Seat => Some(before_cost_usd),
-        Effect::TakeOff => None,
+        Effect::TakeOff | Effect::Battery | Effect::Power => None,
     }
 }

@@ -3,11 +3,16 @@
 use std::sync::Arc;
 
 use serde::Serialize;
-use vertifleet_core::{Aircraft, Day, Scenario, TypeIx, VertiportIx};
+use vertifleet_core::{
+    Aircraft, ChargeCurve, Charging, CurvePoint, Day, Scenario, TypeIx, VertiportIx,
+};
 use vertifleet_optimize::Bound;
 
 /// With more vertiports, only those with the highest shadow prices get a further stand.
 const MOST_STANDS: usize = 8;
+/// The energy that is added to a battery, and the power that is added to a charger.
+const MORE_KWH: f64 = 10.0;
+const MORE_KW: f64 = 1.0;
 
 /// What a change of the day is worth, after what it costs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -34,6 +39,10 @@ pub(super) enum Effect {
     Seat,
     /// A shorter take-off.
     TakeOff,
+    /// More energy in every battery of a type.
+    Battery,
+    /// More power at every charger.
+    Power,
 }
 
 /// A day that differs in one thing.
@@ -67,6 +76,10 @@ pub(super) fn changes(day: &Scenario, bound: &Bound) -> Vec<Change> {
         changed.operations.takeoff_s -= 60;
         days.push(("a minute less for every take-off".to_owned(), Effect::TakeOff, changed));
     }
+    if day.operations.charging == Charging::AsNeeded {
+        days.extend(with_batteries(day));
+        days.push(with_power(day));
+    }
     let checked = |(words, effect, changed): (String, Effect, Day)| {
         // A change that the format does not allow, such as a stand beyond the most, is left out.
         let changed = changed.check("a changed day").ok()?;
@@ -84,8 +97,35 @@ fn cost_usd(day: &Scenario, effect: Effect) -> f64 {
             vertiport.chargers.map_or(vertiport.stand_cost_usd, |_| vertiport.charger_cost_usd)
         }
         Effect::Aircraft(..) => day.aircraft_cost_usd,
-        Effect::Seat | Effect::TakeOff => 0.0,
+        Effect::Seat | Effect::TakeOff | Effect::Battery | Effect::Power => 0.0,
     }
+}
+
+/// The days with more energy in every battery of a type.
+fn with_batteries(day: &Scenario) -> impl Iterator<Item = (String, Effect, Day)> {
+    let kinds = 0..day.aircraft_types.len();
+    kinds.map(|kind| {
+        let mut changed = day.clone().into_day();
+        changed.aircraft_types[kind].battery_kwh += MORE_KWH;
+        let words = format!("{MORE_KWH} kWh more in every {}", day.aircraft_types[kind].id);
+        (words, Effect::Battery, changed)
+    })
+}
+
+/// The day on which every charger delivers more power, and every type takes it.
+fn with_power(day: &Scenario) -> (String, Effect, Day) {
+    let mut changed = day.clone().into_day();
+    for kind in &mut changed.aircraft_types {
+        kind.charge_kw += MORE_KW;
+        kind.charge_curve = kind.charge_curve.take().map(|curve| {
+            let more = |point: &CurvePoint| CurvePoint { kw: point.kw + MORE_KW, ..*point };
+            ChargeCurve::through(curve.points().iter().map(more).collect())
+        });
+    }
+    for vertiport in &mut changed.vertiports {
+        vertiport.charger_kw = vertiport.charger_kw.map(|kw| kw + MORE_KW);
+    }
+    (format!("{MORE_KW} kW more at every charger"), Effect::Power, changed)
 }
 
 /// The day with one more stand, or with one more charger where these are counted apart.
