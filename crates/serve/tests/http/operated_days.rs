@@ -42,7 +42,7 @@ fn a_live_day_is_the_simulated_day_to_the_cent() {
         "disrupted" => ["gcaps-x", "rolling"],
         _ => ["gcaps-x", "greedy"],
     };
-    for network in ["paper", "disrupted", "new-york"] {
+    for network in ["paper", "disrupted", "new-york", "paper-quick", "new-york-quick"] {
         for policy in policies(network) {
             let day = day(network, 2001);
             let report = operated(&service, &day, policy);
