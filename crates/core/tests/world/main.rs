@@ -3,6 +3,7 @@
 mod any_input;
 mod beyond;
 mod drawing;
+mod energy;
 mod errors;
 mod files;
 mod hopeless_demand;
