@@ -6,7 +6,9 @@
 
 use std::ops::Deref;
 
-use crate::{ChargeCurve, Charging, Disturbances, Fares, Matrix, Route, Time, TypeIx, VertiportIx};
+use crate::{
+    ChargeCurve, Charging, Disturbances, Fares, Matrix, Route, Time, TypeIx, VertiportIx, whole_mwh,
+};
 
 /// When decisions are taken, and how long each part of a flight takes apart from cruise and
 /// charging.
@@ -106,8 +108,13 @@ impl AircraftType {
     /// rounded to whole milliwatt-hours, so that a pair exactly at the end of the range can be
     /// flown whichever way a product rounds.
     pub fn lasts_for(&self, energy_kwh: f64) -> bool {
-        let whole_mwh = |kwh: f64| (1e6 * kwh).round();
-        whole_mwh(energy_kwh) + whole_mwh(self.reserve_kwh) <= whole_mwh(self.battery_kwh)
+        self.needed_mwh(energy_kwh) <= whole_mwh(self.battery_kwh)
+    }
+
+    /// What a battery holds at least when a flight of this energy takes off, mWh: the energy and
+    /// the reserve.
+    pub fn needed_mwh(&self, energy_kwh: f64) -> u64 {
+        whole_mwh(energy_kwh) + whole_mwh(self.reserve_kwh)
     }
 }
 
@@ -207,6 +214,12 @@ impl Scenario {
     pub fn is_corridor(&self, from: VertiportIx, to: VertiportIx) -> bool {
         let corridors = self.corridors.as_ref();
         corridors.is_none_or(|routes| routes.iter().any(|route| route.covers(from, to)))
+    }
+
+    /// The charge with which an aircraft of this day starts, kWh.
+    pub fn start_charge_kwh(&self, aircraft: &Aircraft) -> f64 {
+        let full_kwh = self.aircraft_types[aircraft.kind.at()].battery_kwh;
+        aircraft.start_charge_kwh.unwrap_or(full_kwh)
     }
 
     /// Whether any flight has a cost without its energy, with or without passengers.

@@ -23,11 +23,9 @@ impl Batteries {
         if scenario.operations.charging == Charging::ToFull {
             return Self { landed_mwh: Vec::new() };
         }
-        let charge = |aircraft: &vertifleet_core::Aircraft| {
-            let full_kwh = scenario.aircraft_types[aircraft.kind.at()].battery_kwh;
-            whole_mwh(aircraft.start_charge_kwh.unwrap_or(full_kwh))
-        };
-        Self { landed_mwh: scenario.aircraft.iter().map(charge).collect() }
+        let fleet = scenario.aircraft.iter();
+        let charges = fleet.map(|aircraft| whole_mwh(scenario.start_charge_kwh(aircraft)));
+        Self { landed_mwh: charges.collect() }
     }
 
     /// Whether the day charges to full, so that no charge is kept.
@@ -80,9 +78,9 @@ impl Simulation {
         let Decision { aircraft, at, time, .. } = *decision;
         let kind = self.scenario.aircraft[aircraft.at()].kind;
         let rate = self.legs.rate(kind, at);
-        let reserve_kwh = self.scenario.aircraft_types[kind.at()].reserve_kwh;
         let energy_kwh = self.legs.leg(kind, at, to).energy_kwh;
-        let needed_mwh = (whole_mwh(energy_kwh) + whole_mwh(reserve_kwh)).min(rate.full_mwh());
+        let needed_mwh = self.scenario.aircraft_types[kind.at()].needed_mwh(energy_kwh);
+        let needed_mwh = needed_mwh.min(rate.full_mwh());
         let landed_mwh = self.batteries.landed_mwh(aircraft);
         time.max(self.arrival[aircraft.at()] + rate.needed_s(landed_mwh, needed_mwh))
     }

@@ -51,7 +51,7 @@ fn a_day_with_these_members_reads_back_as_it_was_written() {
     beyond.aircraft[0].start_charge_kwh = Some(1_000.0);
     let error = beyond.check("a day").expect_err("more than the battery holds");
     assert_eq!(error.code().to_string(), "V104", "{error}");
-    // The start charges have a stream of their own: all else is as on full batteries.
+    // Start charges have a separate stream: all else is as with full batteries.
     let full = Network::from_toml(QUICK, "quick.toml").expect("a network").draw(seed);
     assert_eq!((&full.demand, full.aircraft[0].at), (&day.demand, day.aircraft[0].at));
 }

@@ -66,9 +66,8 @@ impl<'a> ChargeLevels<'a> {
     }
 
     /// The level of an aircraft of a type that starts with a charge.
-    pub(super) fn at_start(&self, kind: TypeIx, start_charge_kwh: Option<f64>) -> Level {
-        let full_kwh = self.scenario.aircraft_types[kind.at()].battery_kwh;
-        self.up(kind, whole_mwh(start_charge_kwh.unwrap_or(full_kwh)))
+    pub(super) fn at_start(&self, kind: TypeIx, charge_kwh: f64) -> Level {
+        self.up(kind, whole_mwh(charge_kwh))
     }
 
     /// The highest level.
@@ -88,8 +87,7 @@ impl<'a> ChargeLevels<'a> {
         let (here, there) = (self.legs.rate(kind, from), self.legs.rate(kind, to));
         let charge_mwh = self.charge_mwh[kind.at() * self.count + usize::from(level)];
         let energy_mwh = whole_mwh(leg.energy_kwh);
-        let reserve_mwh = whole_mwh(self.scenario.aircraft_types[kind.at()].reserve_kwh);
-        let needed_mwh = energy_mwh + reserve_mwh;
+        let needed_mwh = self.scenario.aircraft_types[kind.at()].needed_mwh(leg.energy_kwh);
         let wait_s = here.needed_s(charge_mwh, needed_mwh);
         let takeoff_mwh = charge_mwh.max(needed_mwh + self.second_mwh[kind.at()]);
         let left_mwh = here.charged_mwh(takeoff_mwh.min(here.full_mwh()), late_s) + ROUNDING_MWH;

@@ -29,9 +29,9 @@ impl Relaxed<'_> {
             return Ok(self);
         }
         let dearest = self.at(0.0).day(CUTS[0].step)?.dearest_second();
-        let (price, _) = self.section(&CUTS[0], (0.0, dearest), SECTIONS.0, watch)?;
+        let price = self.section(&CUTS[0], (0.0, dearest), SECTIONS.0, watch)?;
         let around = ((1.0 - AROUND) * price, (1.0 + AROUND) * price);
-        let (price, _) = self.section(&CUTS[1], around, SECTIONS.1, watch)?;
+        let price = self.section(&CUTS[1], around, SECTIONS.1, watch)?;
         Ok(self.at(price))
     }
 
@@ -40,14 +40,14 @@ impl Relaxed<'_> {
         Self { charge: Charge { price: whole(price), levels: LEVELS[0] }, ..self }
     }
 
-    /// The best price between two that some golden sections find, and its bound.
+    /// The best price between two that some golden sections find.
     fn section(
         self,
         cut: &Cut,
         (mut low, mut high): (f64, f64),
         sections: usize,
         watch: &dyn Watch,
-    ) -> Result<(f64, f64), Error> {
+    ) -> Result<f64, Error> {
         let mut start = None;
         let mut value = |price: f64| self.value(cut, price, &mut start, watch);
         let inner =
@@ -65,7 +65,7 @@ impl Relaxed<'_> {
                 of_dearer = value(dearer)?;
             }
         }
-        Ok(if of_cheaper <= of_dearer { (cheaper, of_cheaper) } else { (dearer, of_dearer) })
+        Ok(if of_cheaper <= of_dearer { cheaper } else { dearer })
     }
 
     /// About the bound at a price, micro-dollars. The search for all other prices begins with those

@@ -9,7 +9,7 @@
 //! flights and are given it for the seconds that they have. Any price from 0 on proves a bound
 //! (docs/src/concepts/bound.md has the proof).
 
-use vertifleet_core::{ChargeCurve, Scenario, TypeIx, VertiportIx, whole_mwh};
+use vertifleet_core::{ChargeCurve, Scenario, TypeIx, VertiportIx};
 use vertifleet_sim::{Leg, Legs};
 
 /// The most that a second of charging may cost, micro-dollars. It keeps the sums of
@@ -53,10 +53,9 @@ impl<'a> ChargingTime<'a> {
         kind: TypeIx,
         (from, to): (VertiportIx, VertiportIx),
     ) -> u32 {
-        let reserve_kwh = self.scenario.aircraft_types[kind.at()].reserve_kwh;
         let rate = self.legs.rate(kind, from);
-        let needed_mwh =
-            whole_mwh(self.legs.leg(kind, from, to).energy_kwh) + whole_mwh(reserve_kwh);
+        let energy_kwh = self.legs.leg(kind, from, to).energy_kwh;
+        let needed_mwh = self.scenario.aircraft_types[kind.at()].needed_mwh(energy_kwh);
         rate.needed_s(0, needed_mwh.min(rate.full_mwh()))
     }
 
@@ -72,10 +71,10 @@ impl<'a> ChargingTime<'a> {
 
     /// What an aircraft is given that starts with a charge, micro-dollars: for the charge above the
     /// reserve, and for the time of operations.
-    pub(super) fn gift(&self, kind: TypeIx, start_charge_kwh: Option<f64>) -> i64 {
+    pub(super) fn gift(&self, kind: TypeIx, charge_kwh: f64) -> i64 {
         let of_type = &self.scenario.aircraft_types[kind.at()];
-        let charge_kwh = start_charge_kwh.unwrap_or(of_type.battery_kwh) - of_type.reserve_kwh;
-        let charge_s = (charge_kwh + 2e-6) * 3600.0 / self.greatest_kw(kind);
+        let usable_kwh = charge_kwh - of_type.reserve_kwh;
+        let charge_s = (usable_kwh + 2e-6) * 3600.0 / self.greatest_kw(kind);
         let operations = &self.scenario.operations;
         let open_s = i64::from(operations.end.since(operations.start));
         // One that never leaves pays for nothing, however little it has.

@@ -368,7 +368,7 @@ fn layers(
         let first = || first_decision(scenario, AircraftIx::new(position));
         let ready = ready.get(position).copied().unwrap_or_else(first);
         let ready_s = ready.since(scenario.operations.start);
-        let (kind, charge_kwh) = (aircraft.kind, aircraft.start_charge_kwh);
+        let (kind, charge_kwh) = (aircraft.kind, scenario.start_charge_kwh(aircraft));
         let level = charging.map_or(0, |day| day.levels.at_start(kind, charge_kwh));
         let gift = charging.map_or(0, |day| day.time.gift(kind, charge_kwh));
         (aircraft.at.at(), level, ready_s, gift)

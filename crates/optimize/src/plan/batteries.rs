@@ -1,6 +1,8 @@
 //! What is in the battery of an aircraft on days that charge as needed, as the simulator has it.
 
-use vertifleet_core::{AircraftIx, Charging, Scenario, TypeIx, VertiportIx, whole_mwh};
+use vertifleet_core::{
+    AircraftIx, AircraftType, Charging, Scenario, TypeIx, VertiportIx, whole_mwh,
+};
 use vertifleet_sim::Legs;
 
 use super::hop::{Hop, Landed};
@@ -9,8 +11,7 @@ use super::hop::{Hop, Landed};
 #[derive(Debug)]
 pub(super) struct Batteries {
     legs: Legs,
-    /// By type, mWh.
-    reserve_mwh: Vec<u64>,
+    types: Vec<AircraftType>,
     /// By aircraft.
     start_mwh: Vec<u64>,
 }
@@ -21,15 +22,12 @@ impl Batteries {
         if scenario.operations.charging == Charging::ToFull {
             return None;
         }
-        let reserve = |kind: &vertifleet_core::AircraftType| whole_mwh(kind.reserve_kwh);
-        let start = |aircraft: &vertifleet_core::Aircraft| {
-            let full_kwh = scenario.aircraft_types[aircraft.kind.at()].battery_kwh;
-            whole_mwh(aircraft.start_charge_kwh.unwrap_or(full_kwh))
-        };
+        let fleet = scenario.aircraft.iter();
+        let start_mwh = fleet.map(|aircraft| whole_mwh(scenario.start_charge_kwh(aircraft)));
         Some(Self {
             legs: Legs::of(scenario),
-            reserve_mwh: scenario.aircraft_types.iter().map(reserve).collect(),
-            start_mwh: scenario.aircraft.iter().map(start).collect(),
+            types: scenario.aircraft_types.clone(),
+            start_mwh: start_mwh.collect(),
         })
     }
 
@@ -71,7 +69,7 @@ impl Batteries {
         landed: Landed,
         decided_s: u32,
     ) -> u32 {
-        let needed_mwh = whole_mwh(hop.energy_kwh) + self.reserve_mwh[kind.at()];
+        let needed_mwh = self.types[kind.at()].needed_mwh(hop.energy_kwh);
         let needed_s = self.legs.rate(kind, from).needed_s(landed.charge_mwh, needed_mwh);
         decided_s.max(landed.arrival_s + needed_s)
     }

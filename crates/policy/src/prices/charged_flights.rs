@@ -69,7 +69,7 @@ fn flight(view: View<'_>, kind: TypeIx, from: VertiportIx, to: VertiportIx) -> C
     let leg = view.leg(kind, from, to);
     let (here, there) = (view.charge_rate(kind, from), view.charge_rate(kind, to));
     let energy_mwh = whole_mwh(leg.energy_kwh);
-    let needed_mwh = energy_mwh + whole_mwh(view.aircraft_type(kind).reserve_kwh);
+    let needed_mwh = view.aircraft_type(kind).needed_mwh(leg.energy_kwh);
     let most_s = here.to_full_s(needed_mwh.min(here.full_mwh()));
     let mut ready_s = [0.0; PARTS + 1];
     for (part, ready_s) in ready_s.iter_mut().enumerate() {

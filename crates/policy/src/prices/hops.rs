@@ -129,7 +129,7 @@ impl Hops {
             let (from, level) = (row / count, row % count);
             let pair = (kind.at() * vertiports + from) * vertiports + to.at();
             let flight = flights[pair * count + level];
-            let takes_off_s = waits_s.get(pair * count + level).copied().unwrap_or(0);
+            let takes_off_s = waits_s[pair * count + level];
             let stay = || Stay::of(flight.block_s, clock).taking_off_after(takes_off_s, clock);
             (flight.hop != NONE).then(|| (stay(), flight.level))
         });
@@ -310,7 +310,7 @@ fn ready_after(
     }
     let energy_mwh = whole_mwh(leg.energy_kwh);
     let charge_mwh = levels.charge_mwh(kind, level);
-    let needed_mwh = energy_mwh + whole_mwh(view.aircraft_type(kind).reserve_kwh);
+    let needed_mwh = view.aircraft_type(kind).needed_mwh(leg.energy_kwh);
     let wait_s = view.charge_rate(kind, from).needed_s(charge_mwh, needed_mwh);
     let landed_mwh = charge_mwh.max(needed_mwh) - energy_mwh;
     let ready_mwh = view.charge_rate(kind, to).charged_mwh(landed_mwh, leg.ground_s);
