@@ -1,7 +1,8 @@
 import { describe, expect, it } from 'vitest'
-import type { AircraftState, DayState, Outlook, TakenEvent } from '../api/types'
+import type { AircraftState, DayState, Leg, Outlook, TakenEvent } from '../api/types'
+import { fleetRows } from './bars'
 import { east, events, north, outlook, recordAfter, scenario, south, state } from './fixtures/liveDay'
-import { liveRecord } from './live'
+import { lacksTakeoffs, liveRecord } from './live'
 import { isHold } from './record'
 import { Reports } from './reports'
 import { clock, timeOf } from './time'
@@ -49,6 +50,47 @@ describe('a live day that charges as needed', () => {
       { seq: 3, event: { type: 'landed', time: '07:40:00', aircraft: 'A03', charge_kwh: 9.5 } },
     ] as unknown as TakenEvent[]
     expect(flightOfA03([...decided, ...landed])?.lands_with_kwh).toBe(9.5)
+  })
+
+  describe('with a late departure', () => {
+    const late = ['charge 06:47:00-06:59:00', 'delay 06:59:00-07:10:00', 'flight 07:10:00-07:51:40']
+    const departed = { seq: 2, event: { type: 'departed', time: '07:10:00', aircraft: 'A03' } }
+    const times = { arrival: '07:51:40', ready: '07:51:40' }
+    const flight = { from: 'East', to: 'North', passengers: 4, decided: '06:47:00', takeoff: '06:59:00' }
+    const after = (change: Partial<AircraftState>): DayState => ({
+      ...state,
+      aircraft: state.aircraft.map((one) => (one.id === 'A03' ? { ...one, ...times, ...change } : one)),
+    })
+    const flying = after({ phase: 'in_the_air', flight })
+
+    function barsOfA03(now: DayState): string[] {
+      const reports = new Reports(asNeeded)
+      for (const event of [...decided, departed as unknown as TakenEvent]) reports.take(event)
+      reports.keepTakeoffsOfState(flying)
+      const isFlight = (leg: Leg) => leg.aircraft === 'A03' && leg.time === '06:47:00'
+      const legs = outlook.legs.map((leg) => (isFlight(leg) ? { ...leg, ...times } : leg))
+      const sources = { scenario: asNeeded, reports, outlook: { ...outlook, legs }, flown: [] }
+      const record = liveRecord({ ...sources, state: now })
+      const bars = fleetRows(record)[a03]?.bars.filter(({ begins }) => begins >= timeOf('06:47:00')) ?? []
+      return bars.map(({ kind, begins, ends }) => `${kind} ${clock(begins)}-${clock(ends)}`)
+    }
+
+    it('charges until the take-off that was decided, and is late from then on', () => {
+      expect(barsOfA03(flying).slice(0, 3)).toEqual(late)
+    })
+
+    it('is drawn the same after its landing', () => {
+      const landed = after({ phase: 'standing', place: 'North', flight: null })
+      expect(barsOfA03(landed).slice(0, 3)).toEqual(late)
+    })
+  })
+
+  it('has flights in the outlook whose take-offs are unknown until the trace is read', () => {
+    const [asNeededOutlook, reports] = [{ ...outlook }, new Reports(asNeeded)]
+    expect(lacksTakeoffs(asNeededOutlook, asNeeded, reports)).toBe(true)
+    reports.keepTakeoffsOfTrace(record.legs.map((leg) => ({ ...leg, charged: leg.decided })))
+    expect(lacksTakeoffs(asNeededOutlook, asNeeded, reports)).toBe(false)
+    expect(lacksTakeoffs({ ...outlook }, scenario, new Reports(scenario))).toBe(false)
   })
 
   it('takes off in the outlook as long before the landing as the flight takes', () => {

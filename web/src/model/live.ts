@@ -102,6 +102,17 @@ export function legsOf(outlook: Outlook, scenario: Scenario): LegRecord[] {
   return legs
 }
 
+/**
+ * Whether an outlook has flights whose take-offs are unknown. It contains only landings, and a
+ * flight may land late because it departed late or because it waited for its charge.
+ */
+export function lacksTakeoffs(outlook: Outlook, scenario: Scenario, reports: Reports): boolean {
+  return legsOf(outlook, scenario).some(
+    ({ aircraft, decided, charged, is_expected }) =>
+      !is_expected && charged !== undefined && reports.takeoff(aircraft, decided) === undefined,
+  )
+}
+
 function legOf(leg: Leg, aircraft: Map<string, number>, vertiports: Map<string, number>): LegRecord {
   const decided = timeOf(leg.time)
   return {
@@ -213,10 +224,14 @@ class Legs {
     const report = this.reports.decision(leg.aircraft, leg.decided)
     const policy = report?.policy === undefined ? {} : { policy: report.policy }
     if (leg.from === leg.to) return { ...leg, ...policy }
-    const charged = leg.charged ?? leg.decided
+    const takeoff = this.reports.takeoff(leg.aircraft, leg.decided) ?? leg.charged
+    const charged = takeoff ?? leg.decided
     const departs = report?.departs ?? charged
     const arrives = charged + nominal(this.scenario, leg).flight_s
-    const charge = report?.lands_with_kwh === undefined ? {} : { lands_with_kwh: report.lands_with_kwh }
+    const charge = {
+      ...(takeoff === undefined ? {} : { charged: takeoff }),
+      ...(report?.lands_with_kwh === undefined ? {} : { lands_with_kwh: report.lands_with_kwh }),
+    }
     const known = { ...leg, ...policy, ...charge, departs }
     if (departs === charged && leg.arrives === arrives) return known
     const planned = { departs: charged, arrives, ready: arrives + leg.ready - leg.arrives }

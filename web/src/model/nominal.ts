@@ -37,7 +37,8 @@ export function nominal(
 
 /**
  * A flight with its take-off on a day that charges as needed; on other days it takes off at the
- * decision. The service's outlook has no take-offs, but each follows from the landing.
+ * decision. The service's outlook has no take-offs, but each follows from the landing, unless the
+ * flight was late.
  */
 export function withTakeoff(scenario: Scenario, leg: LegRecord): LegRecord {
   if (scenario.operations.charging !== 'as_needed' || leg.from === leg.to) return leg
