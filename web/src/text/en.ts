@@ -312,7 +312,7 @@ export const en = {
     kinds: {
       departed: 'An aircraft has departed',
       landed: 'An aircraft has landed',
-      ready: 'An aircraft is charged',
+      ready: 'An aircraft is ready',
       delayed: 'An aircraft is delayed',
       out_of_service: 'An aircraft is out of service',
       back_in_service: 'An aircraft is back in service',
@@ -381,8 +381,8 @@ export const en = {
       `${aircraft} has departed${to === undefined ? '' : ` for ${to}`}${passengers === undefined ? '' : ` with ${plural(passengers, 'passenger', 'passengers')}`}`,
     landed: (aircraft: string, at: string | undefined, charge: string | undefined) =>
       `${aircraft} has landed${at === undefined ? '' : ` at ${at}`}${charge === undefined ? '' : ` with ${charge} kWh`}`,
-    charging: (aircraft: string, ready: string) => `${aircraft} will be charged at ${ready}`,
-    ready: (aircraft: string) => `${aircraft} is charged`,
+    charging: (aircraft: string, ready: string) => `${aircraft} will be ready at ${ready}`,
+    ready: (aircraft: string) => `${aircraft} is ready`,
     delayed: (aircraft: string, until: string) => `${aircraft} is delayed until ${until}`,
     outOfService: (aircraft: string, until: string | undefined) =>
       `${aircraft} is out of service${until === undefined ? '' : ` until ${until}`}`,
