@@ -195,6 +195,35 @@ test('a pair and a period are changed', async ({ page, program }) => {
   await expect(page.getByText(/^No errors:/)).toBeVisible()
 })
 
+test('aircraft start with a charge from a range', async ({ page, program }) => {
+  await openNetwork(page, program.console, 'paper-quick')
+  await page.getByRole('tab', { name: 'Fleet' }).click()
+  const before = await text(page).inputValue()
+  const choice = page.getByLabel('Charge at the start of the day')
+  await expect(choice).toHaveValue('full')
+  await choice.selectOption('drawn')
+  await expect(text(page)).toHaveValue(/^start_charge = \[0\.5, 1\]$/m)
+  await page.getByLabel('Lowest charge').fill('0.9')
+  const highest = page.getByLabel('Highest charge')
+  await highest.fill('0.6')
+  await expect(page.getByText('1 error')).toBeVisible()
+  await expect(highest).toHaveAccessibleDescription(
+    'start_charge[1] must be at least start_charge[0], 0.9, found 0.6',
+  )
+  await expect(choice).toHaveAccessibleDescription(/^From a range/)
+  await expectAccessible(page)
+  await page.getByRole('tab', { name: 'Tariffs' }).click()
+  await page.getByRole('button', { name: /^Show/ }).click()
+  await expect(highest).toBeFocused()
+  await page.getByLabel('Lowest charge').fill('0.3')
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
+  await expect(text(page)).toHaveValue(/^start_charge = \[0\.3, 0\.6\]$/m)
+  await choice.selectOption('full')
+  await expect(text(page)).toHaveValue(before)
+  await expect(highest).toHaveCount(0)
+  await expect(page.getByText(/^No errors:/)).toBeVisible()
+})
+
 test('a shipped network is saved under another name', async ({ page, program }) => {
   await openNetwork(page, program.console, /paper(?!-)/)
   await page.getByLabel('Stands of V1').fill('7')

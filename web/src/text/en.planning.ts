@@ -122,6 +122,10 @@ export const editor = {
     add: 'Add aircraft of a type',
     remove: (type: string) => `Remove the aircraft of type ${type}`,
     start: 'Every morning each aircraft starts at a random free stand.',
+    startCharge: 'Charge at the start of the day',
+    startCharges: { full: 'Full batteries', drawn: 'Drawn from a range' },
+    startChargeHint: 'From a range: drawn evenly each day, for each aircraft.',
+    startChargeEnds: ['Lowest charge, share', 'Highest charge, share'],
     stands: (aircraft: number, stands: number) =>
       `${plural(aircraft, 'aircraft', 'aircraft')} for ${plural(stands, 'stand', 'stands')}`,
     members: {

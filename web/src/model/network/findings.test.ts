@@ -60,6 +60,13 @@ it.each([
   expect(lines[(found.line ?? 0) - 1]?.startsWith(line)).toBe(true)
 })
 
+it('finds an end of the range of charges at the start', () => {
+  const drawn = new TomlFile('name = "a"\nstart_charge = [0.9, 0.6]\n')
+  const detail = 'the network: start_charge[1] must be at least start_charge[0], 0.9, found 0.6'
+  const found = findingOf({ code: 'V104', detail, hint: undefined }, drawn)
+  expect(found).toMatchObject({ path: ['start_charge', 1], line: 2 })
+})
+
 it('names entries by kind and number, and empty members as empty', () => {
   const found = find('vertiports[0]: id must be 1 to 64 characters without control characters, found ""')
   expect(found.message).toBe('vertiport no. 1 of the file: id must not be empty')

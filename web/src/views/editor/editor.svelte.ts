@@ -25,6 +25,7 @@ const tabOf: Readonly<Record<string, Tab>> = {
   vertiports: 'places',
   aircraft_types: 'fleet',
   fleet: 'fleet',
+  start_charge: 'fleet',
   tariffs: 'tariffs',
   demand: 'demand',
   daily_demand: 'demand',
