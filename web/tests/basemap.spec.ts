@@ -3,7 +3,8 @@
 
 import { createServer, type Server } from 'node:http'
 import type { AddressInfo } from 'node:net'
-import type { Page } from '@playwright/test'
+import type { Locator, Page } from '@playwright/test'
+import { Fleet } from './support/fleet'
 import { withWebGL } from './support/pictures'
 import { worldWithWaterWestOf } from './support/pmtiles'
 import { Program } from './support/program'
@@ -11,6 +12,8 @@ import { expect, test as base } from './support/test'
 
 /** Within the network of New York, so that its map shows both land and water. */
 const SHORE = -73.8
+
+const newYork = { network: 'new-york', seed: 1, policy: 'greedy' }
 
 interface Fixtures {
   /** The address of the base map's files. */
@@ -69,6 +72,18 @@ async function colourAt(page: Page, x: number, y: number): Promise<string> {
   }, picture)
 }
 
+/**
+ * The colours near the lower corners of a base map. Its place is read each time, because the page
+ * may still be arranged while it loads.
+ */
+async function coloursOf(basemap: Locator): Promise<{ west: string; east: string }> {
+  const box = await basemap.boundingBox()
+  if (box === null) throw new Error('the base map is in the page')
+  const [page, y] = [basemap.page(), box.y + box.height - 40]
+  const west = await colourAt(page, box.x + 150, y)
+  return { west, east: await colourAt(page, box.x + box.width - 12, y) }
+}
+
 async function withBasemap(address: string, use: (program: Program) => Promise<void>): Promise<void> {
   const program = await Program.start('--basemap', address)
   try {
@@ -83,21 +98,31 @@ test('a PMTiles file is drawn in the console’s colours, on the map of a day an
   tiles,
 }) => {
   await withBasemap(`${tiles}/world.pmtiles`, async ({ url }) => {
-    const body = JSON.stringify({ network: 'new-york', seed: 1, policy: 'greedy' })
-    const made = await fetch(`${url}/v1/days`, { method: 'POST', body })
-    const { id } = (await made.json()) as { id: string }
-    for (const view of [`day/${id}/now`, 'networks']) {
+    const { day } = await Fleet.onNewDay(url, newYork)
+    for (const view of [`day/${day}/now`, 'networks']) {
       await page.goto(`${url}/#/${view}`)
       if (view === 'networks') await page.getByRole('button', { name: /new-york(?!-)/ }).click()
       const basemap = page.locator('.basemap')
       await expect(basemap.locator('canvas')).toBeVisible()
       await expect(page.getByText('A survey')).toBeVisible()
-      const box = await basemap.boundingBox()
-      if (box === null) throw new Error('the base map is in the page')
-      const [west, east, y] = [box.x + 150, box.x + box.width - 12, box.y + box.height - 40]
-      await expect.poll(() => colourAt(page, west, y)).toBe('#dde6ed')
-      expect(await colourAt(page, east, y)).toBe('#f7f8f7')
+      await expect.poll(() => coloursOf(basemap)).toEqual({ west: '#dde6ed', east: '#f7f8f7' })
     }
+  })
+})
+
+test('a base map stays while the day goes on', async ({ page, tiles }) => {
+  await withBasemap(`${tiles}/world.pmtiles`, async ({ url }) => {
+    const fleet = await Fleet.onNewDay(url, newYork)
+    await page.goto(`${url}/#/day/${fleet.day}/now`)
+    await expect(page.getByText('A survey')).toBeVisible()
+    await expect(page.locator('.figures')).toContainText('% expected')
+    const basemap = await page.locator('.basemap').elementHandle()
+    const outlook = page.waitForResponse(/\/outlook/)
+    await fleet.report({ type: 'clock', time: '06:10:00' })
+    await outlook
+    await expect(page.getByText(/^A map of/)).toContainText('At 06:10')
+    expect(await basemap.evaluate((element) => element.isConnected)).toBe(true)
+    await expect(page.getByText('A survey')).toBeVisible()
   })
 })
 
@@ -107,8 +132,11 @@ test('a style is drawn unchanged', async ({ page, tiles }) => {
     await page.getByRole('button', { name: /new-york(?!-)/ }).click()
     const map = page.getByRole('region', { name: 'Map of the vertiports' })
     await expect(map.getByText('A style')).toBeVisible()
-    const box = await map.boundingBox()
-    await expect.poll(() => colourAt(page, (box?.x ?? 0) + 20, (box?.y ?? 0) + 200)).toBe('#204060')
+    const ground = async () => {
+      const box = await map.boundingBox()
+      return colourAt(page, (box?.x ?? 0) + 20, (box?.y ?? 0) + 200)
+    }
+    await expect.poll(ground).toBe('#204060')
   })
 })
 

@@ -52,7 +52,7 @@ test('two consoles on one day show each other’s decisions', async ({ page, con
   await expect(mine.getByRole('heading', { name: /^A01/ })).toBeVisible()
   await theirs.getByRole('button', { name: 'Accept' }).hover()
   await page.bringToFront()
-  await page.waitForTimeout(400)
+  await expect(mine.getByRole('button', { name: 'Accept' })).toBeEnabled()
   await page.keyboard.press('a')
   await expect(mine.getByRole('heading', { name: /^A02/ })).toBeVisible()
   // The other console's pointer is on the decision that is gone: the panel shows this and does not
@@ -67,7 +67,7 @@ test('an idle console follows the other one', async ({ page, context, program, f
   const other = await context.newPage()
   await open(other, program, fleet)
   await open(page, program, fleet)
-  await page.waitForTimeout(400)
+  await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
   await page.keyboard.press('a')
   await expect(panel(other).getByRole('heading', { name: /^A02/ })).toBeVisible()
 })

@@ -151,7 +151,7 @@ test('a decision can be undone until the aircraft departs', async ({ page, progr
   await expect(page.getByRole('region', { name: 'Needs a decision' }).locator('.badge')).toHaveText('6')
   // The panel returns to the aircraft.
   await expect(panel(page).getByRole('heading', { name: /^A01/ })).toBeVisible()
-  await page.waitForTimeout(400)
+  await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
   await page.keyboard.press('a')
   const lately = page
     .getByRole('region', { name: 'Recent decisions' })

@@ -43,6 +43,7 @@ export class Underlay {
   ): () => void {
     let isWanted = true
     const back = () => {
+      if (!isWanted) return
       onattribution(`${text.map.failedBasemap} ${text.map.attribution}`)
       this.#lay(undefined)
     }
