@@ -2,6 +2,7 @@
 
 import { readFileSync } from 'node:fs'
 import { resolve } from 'node:path'
+import { clock, timeOf } from '../src/model/time'
 import { Fleet } from './support/fleet'
 import { expect, expectAccessibleInBoth, open, panel, test } from './support/test'
 
@@ -49,6 +50,36 @@ test('a flight waits for its charge', async ({ page, program }) => {
   await expect(entry).toContainText(/takes off \d\d:\d\d/)
   await expect(page.getByRole('button', { name: /lands with \d+ kWh$/ }).first()).toBeVisible()
   await expectAccessibleInBoth(page)
+})
+
+test('a late departure is late after its landing too', async ({ page, program }) => {
+  const toml = paperQuick
+    .replace('name = "paper-quick"', 'name = "low"')
+    .replace(/^start_positions = .*$/m, (line) => `${line}\nstart_charge = [0.1, 0.2]`)
+  await new Fleet(program.url, '').ask('PUT', '/v1/networks/low', { toml })
+  const fleet = await Fleet.onNewDay(program.url, { network: 'low', seed: 1, policy: 'greedy' })
+  for (const aircraft of await fleet.waiting()) await fleet.decide(aircraft)
+  await open(page, program, fleet, 'timeline')
+  const before = await fleet.state()
+  const { id, flight } = before.aircraft.find((one) => one.phase === 'sent_off') ?? {}
+  const takeoff = timeOf(flight?.takeoff ?? 0)
+  expect(takeoff).toBeGreaterThan(timeOf(flight?.decided ?? 0))
+  await fleet.report({ type: 'departed', aircraft: id ?? '', time: clock(takeoff + 600) })
+  const { aircraft } = await fleet.state()
+  const arrival = aircraft.find((one) => one.id === id)?.arrival ?? ''
+  const outlook = page.waitForResponse(/\/outlook/)
+  await fleet.report({ type: 'landed', aircraft: id ?? '', time: arrival })
+  await outlook
+
+  await page.getByRole('button', { name: 'As a table' }).first().click()
+  await page.getByRole('combobox', { name: 'Aircraft' }).selectOption(id ?? '')
+  await page.getByRole('button', { name: 'As a table' }).first().click()
+  const announcement = page.locator('[aria-live=polite]').filter({ hasText: id ?? '' })
+  await expect(async () => {
+    await page.getByRole('application', { name: /Timeline of the fleet/ }).press('Home')
+    await expect(announcement).toContainText(`planned ${clock(takeoff)} to`, { timeout: 1000 })
+  }).toPass()
+  await expect(announcement).toContainText(`${clock(takeoff + 600)} to ${arrival}`)
 })
 
 test('a reserve is part of what a flight needs, and a landing may have its charge', async ({
