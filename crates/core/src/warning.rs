@@ -4,7 +4,8 @@
 use std::fmt;
 
 use crate::{
-    AircraftType, Code, Degrees, Matrix, Network, Scenario, VertiportIx, great_circle_mi, limits,
+    Aircraft, AircraftType, ChargeRate, Charging, Code, Degrees, Matrix, Network, Scenario, Time,
+    VertiportIx, great_circle_mi, limits, whole_mwh,
 };
 
 /// A property of a scenario or a network that is allowed but probably unintended.
@@ -22,6 +23,29 @@ pub enum Warning {
         kind: String,
         /// The vertiport where it starts.
         at: String,
+    },
+
+    /// V125 aircraft that is charged too late (warning). An aircraft starts the day with less than
+    /// it needs to leave, and charges so slowly where it starts that it has that only after
+    /// operations end. It needs the energy of a flight and the reserve where `charging` is
+    /// `"as_needed"`, and a full battery otherwise. It stands there all day. This is a warning: the
+    /// day is played all the same.
+    ///
+    /// Fix: raise the aircraft's `start_charge_kwh`, its type's `charge_kw` or `charge_curve`, or
+    /// the vertiport's `charger_kw`.
+    ChargedTooLate {
+        /// The aircraft.
+        aircraft: String,
+        /// Its type.
+        kind: String,
+        /// The vertiport where it starts.
+        at: String,
+        /// What its battery needs at least before it leaves, kWh.
+        needed_kwh: f64,
+        /// When its battery has that.
+        charged_at: Time,
+        /// The end of operations.
+        end: Time,
     },
 
     /// V135 vertiport out of reach (warning). No aircraft of the fleet can fly to or from a
@@ -106,6 +130,7 @@ impl Warning {
     pub fn code(&self) -> Code {
         match self {
             Self::NoDestination { .. } => Code(120),
+            Self::ChargedTooLate { .. } => Code(125),
             Self::OutOfReach { .. } => Code(135),
             Self::NoStandFree { .. } => Code(136),
             Self::PairsOutOfReach { .. } => Code(137),
@@ -125,6 +150,10 @@ impl fmt::Display for Warning {
             Self::NoDestination { aircraft, kind, at } => write!(
                 f,
                 "aircraft {aircraft:?} of type {kind:?} reaches no other vertiport from {at:?}: it stands there all day"
+            ),
+            Self::ChargedTooLate { aircraft, kind, at, needed_kwh, charged_at, end } => write!(
+                f,
+                "aircraft {aircraft:?} of type {kind:?} never leaves {at:?}: its battery has the {needed_kwh:.1} kWh that it needs only at {charged_at}, and operations end at {end}"
             ),
             Self::OutOfReach { vertiport, cause } => {
                 write!(f, "no aircraft can fly to or from vertiport {vertiport:?}: {cause}")
@@ -208,16 +237,37 @@ impl Network {
 impl Scenario {
     /// The warnings of this scenario, in file order.
     pub fn warnings(&self) -> Vec<Warning> {
-        let stranded = self.aircraft.iter().filter(|aircraft| {
-            let kind = &self.aircraft_types[aircraft.kind.at()];
-            !self.others(aircraft.at).any(|to| self.can_fly(kind, aircraft.at, to))
-        });
-        let stranded = stranded.map(|aircraft| Warning::NoDestination {
-            aircraft: aircraft.id.clone(),
-            kind: self.aircraft_types[aircraft.kind.at()].id.clone(),
-            at: self.vertiports[aircraft.at.at()].id.clone(),
-        });
+        let stranded = self.aircraft.iter().filter_map(|aircraft| self.stranded(aircraft));
         self.out_of_reach().into_iter().chain(stranded).chain(self.full()).collect()
+    }
+
+    /// The warning that an aircraft stays all day where it starts.
+    fn stranded(&self, aircraft: &Aircraft) -> Option<Warning> {
+        let (kind, start) = (&self.aircraft_types[aircraft.kind.at()], aircraft.at);
+        let place = &self.vertiports[start.at()];
+        let (id, kind_id, at) = (aircraft.id.clone(), kind.id.clone(), place.id.clone());
+        let flown = self.others(start).filter(|&to| self.can_fly(kind, start, to));
+        let energies = flown.map(|to| self.energy_kwh(kind, self.distance_mi[(start, to)]));
+        let Some(least_mwh) = energies.map(|kwh| kind.needed_mwh(kwh)).min() else {
+            return Some(Warning::NoDestination { aircraft: id, kind: kind_id, at });
+        };
+        let rate = ChargeRate::of(kind, place);
+        let start_mwh = whole_mwh(self.start_charge_kwh(aircraft));
+        let (needed_mwh, charged_s) = match self.operations.charging {
+            Charging::ToFull => (rate.full_mwh(), nearest_second(rate.to_full_s(start_mwh))),
+            Charging::AsNeeded => (least_mwh, rate.needed_s(start_mwh, least_mwh)),
+        };
+        let charged_at = self.operations.start + charged_s;
+        let (needed_kwh, end) = (needed_mwh as f64 / 1e6, self.operations.end);
+        let too_late = Warning::ChargedTooLate {
+            aircraft: id,
+            kind: kind_id,
+            at,
+            needed_kwh,
+            charged_at,
+            end,
+        };
+        (charged_at > end).then_some(too_late)
     }
 
     /// The warning that all stands are taken permanently. Where chargers are counted apart, they
@@ -292,15 +342,29 @@ impl Scenario {
         self.is_corridor(from, to) && self.reaches(kind, self.distance_mi[(from, to)])
     }
 
-    /// Whether a full battery lasts for a flight, which takes e d_ij and the self-discharge on the
-    /// way. Cruise is rounded to whole seconds.
+    /// Whether a full battery lasts for a flight of this length.
     fn reaches(&self, kind: &AircraftType, distance_mi: f64) -> bool {
+        kind.lasts_for(self.energy_kwh(kind, distance_mi))
+    }
+
+    /// What a flight takes: e d_ij and the self-discharge on the way, kWh. Cruise is rounded to
+    /// whole seconds.
+    fn energy_kwh(&self, kind: &AircraftType, distance_mi: f64) -> f64 {
         let cruise_s = (3600.0 * distance_mi / kind.speed_mph).round();
         let windows_s = self.operations.takeoff_s + self.operations.landing_s;
         let flight_h = (f64::from(windows_s) + cruise_s) / 3600.0;
         let lost_kwh = kind.battery_kwh * kind.self_discharge_per_h * flight_h;
-        kind.lasts_for(kind.energy_kwh_per_mi * distance_mi + lost_kwh)
+        kind.energy_kwh_per_mi * distance_mi + lost_kwh
     }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "never negative, and a full charge takes at most 5,000 hours"
+)]
+fn nearest_second(seconds: f64) -> u32 {
+    seconds.round() as u32
 }
 
 /// Whether this share of all passengers is worth a warning.

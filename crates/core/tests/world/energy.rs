@@ -1,7 +1,8 @@
 //! The members that say what batteries hold and when aircraft may leave.
 
-use vertifleet_core::{Charging, Coded, DaySeed, Network, Scenario};
+use vertifleet_core::{Charging, Coded, Day, DaySeed, Network, Scenario};
 
+const SMALL: &str = include_str!("../data/small.json");
 const QUICK: &str = include_str!("../../../../networks/new-york-quick.toml");
 
 /// The error of the network with a line in place of another, as it is printed.
@@ -54,4 +55,46 @@ fn a_day_with_these_members_reads_back_as_it_was_written() {
     // Start charges have a separate stream: all else is as with full batteries.
     let full = Network::from_toml(QUICK, "quick.toml").expect("a network").draw(seed);
     assert_eq!((&full.demand, full.aircraft[0].at), (&day.demand, day.aircraft[0].at));
+}
+
+/// The warnings of the small day after a change to it.
+fn warnings(change: impl Fn(&mut Day)) -> Vec<String> {
+    let day = Scenario::from_json(SMALL.as_bytes(), "small.json").expect("the good scenario");
+    let mut day = day.into_day();
+    change(&mut day);
+    let warnings = day.check("day").expect("a valid day").warnings();
+    warnings.iter().map(|warning| format!("{}: {warning}", warning.code())).collect()
+}
+
+/// The glider has 20 kWh, takes 19.5 kWh from C to A, and reaches nothing else. Operations last for
+/// 3.5 h.
+#[test]
+fn an_aircraft_that_is_charged_after_operations_end_is_warned_about() {
+    let with = |charging, start_kwh, charger_kw, reserve_kwh| {
+        warnings(|day| {
+            day.operations.charging = charging;
+            day.aircraft[2].start_charge_kwh = Some(start_kwh);
+            day.vertiports[2].charger_kw = Some(charger_kw);
+            day.aircraft_types[1].reserve_kwh = reserve_kwh;
+        })
+    };
+    let never = |rest: &str| {
+        vec![format!(
+            r#"V125: aircraft "A03" of type "glider" never leaves "C": its battery has {rest}"#
+        )]
+    };
+    assert_eq!(with(Charging::ToFull, 3.0, 5.0, 0.0), [""; 0]);
+    assert_eq!(
+        with(Charging::ToFull, 2.0, 5.0, 0.0),
+        never("the 20.0 kWh that it needs only at 09:36:00, and operations end at 09:30:00")
+    );
+    assert_eq!(with(Charging::AsNeeded, 0.0, 5.6, 0.0), [""; 0]);
+    assert_eq!(
+        with(Charging::AsNeeded, 0.0, 5.6, 0.5),
+        never("the 20.0 kWh that it needs only at 09:34:18, and operations end at 09:30:00")
+    );
+    assert_eq!(
+        with(Charging::AsNeeded, 0.0, 5.0, 0.0),
+        never("the 19.5 kWh that it needs only at 09:54:00, and operations end at 09:30:00")
+    );
 }

@@ -362,7 +362,12 @@ fn every_code_can_be_provoked() {
     let far = changed(NETWORK, ("x_mi = 30.5", "x_mi = 3050"));
     let warnings = Network::from_toml(&far, "net.toml").expect("a network").warnings();
     codes.extend(warnings.iter().map(vertifleet_core::Warning::code));
-    assert_eq!(codes, (101..=122).chain(130..=135).map(Code).collect());
+    let mut empty = small().into_day();
+    empty.aircraft[0].start_charge_kwh = Some(0.0);
+    empty.vertiports[empty.aircraft[0].at.at()].charger_kw = Some(1.0);
+    let warnings = empty.check("day.json").expect("a valid day").warnings();
+    codes.extend(warnings.iter().map(vertifleet_core::Warning::code));
+    assert_eq!(codes, (101..=122).chain([125]).chain(130..=135).map(Code).collect());
 }
 
 #[test]

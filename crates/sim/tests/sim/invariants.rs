@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use proptest::prelude::{any, prop, prop_assert, prop_assert_eq, proptest};
-use vertifleet_core::{AircraftIx, Matrix, Scenario, Vertiport, VertiportIx};
-use vertifleet_sim::{Refusal, Simulation, TraceRow, first_decision};
+use vertifleet_core::{AircraftIx, Charging, Matrix, Scenario, Vertiport, VertiportIx, Warning};
+use vertifleet_sim::{Decision, Refusal, Simulation, TraceRow, first_decision};
 
 use vertifleet_testkit::energy_day;
 
@@ -68,6 +68,31 @@ proptest! {
                 prop_assert_eq!((pair[1].time, pair[1].from), (pair[0].ready, pair[0].to));
             }
             prop_assert!(own[own.len() - 1].ready > day.operations.end, "no aircraft stops early");
+        }
+    }
+
+    #[test]
+    fn aircraft_that_can_never_leave_are_warned_about(day in energy_day(), draws in draws()) {
+        let (_, rows) = play(&day, &draws, |_, _| ());
+        let warnings = day.warnings();
+        let (simulation, end) = (Simulation::new(Arc::clone(&day)), day.operations.end);
+        let view = simulation.view();
+        for aircraft in AircraftIx::all(day.aircraft.len()) {
+            let own = &day.aircraft[aircraft.at()];
+            let decision = Decision { time: view.day_start(), aircraft, at: own.at, index: 0 };
+            let reached = view.within_range(own.kind, own.at);
+            let is_late = match day.operations.charging {
+                Charging::ToFull => first_decision(&day, aircraft) > end,
+                Charging::AsNeeded => {
+                    reached.iter().all(|to| view.outcome(&decision, to).takeoff > end)
+                }
+            };
+            let is_warned_about = warnings.iter().any(|warning| {
+                matches!(warning, Warning::ChargedTooLate { aircraft, .. } if *aircraft == own.id)
+            });
+            prop_assert_eq!(is_warned_about, is_late && reached.len() > 0, "{:?}", own);
+            let mut flights = rows.iter().filter(|row| row.aircraft == aircraft && row.to != row.from);
+            prop_assert!(!is_late || flights.next().is_none());
         }
     }
 
