@@ -100,7 +100,7 @@ pub(crate) struct Impossible {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, ToSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum RuleName {
-    /// A full battery does not last for the flight.
+    /// A full battery does not last for the flight and the reserve.
     OutOfRange,
     /// No corridor leads there.
     NoCorridor,
@@ -301,17 +301,10 @@ fn refusals(view: View<'_>, decision: &Decision) -> Vec<Option<Impossible>> {
             Refusal::ChargedTooLate { .. } => RuleName::ChargedTooLate,
             Refusal::DayOver | Refusal::NoSuchVertiport { .. } => return None,
         };
-        let kind = view.kind(decision.aircraft);
-        let numbers = match rule {
-            RuleName::OutOfRange => format!(
-                " ({:.1} kWh of {:.1} kWh)",
-                view.leg(kind, decision.at, to).energy_kwh,
-                view.aircraft_type(kind).battery_kwh
-            ),
-            RuleName::NoStandFree => {
-                format!(" ({} of {})", view.stands_taken()[to.at()], view.stands(to))
-            }
-            RuleName::NoCorridor | RuleName::Closed | RuleName::ChargedTooLate => String::new(),
+        let numbers = if rule == RuleName::NoStandFree {
+            format!(" ({} of {})", view.stands_taken()[to.at()], view.stands(to))
+        } else {
+            String::new()
         };
         Some(Impossible { rule, reason: format!("{refusal}{numbers}") })
     };

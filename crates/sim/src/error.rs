@@ -15,15 +15,23 @@ pub enum Refusal {
         /// Number of vertiports of the scenario.
         vertiports: usize,
     },
-    /// A full battery does not reach the destination (Eq. 12).
+    /// A full battery does not last for the flight (Eq. 12), or for the flight and the reserve.
     #[error(
-        "aircraft {aircraft:?} cannot fly to vertiport {to:?}: the flight takes more energy than the battery holds"
+        "aircraft {aircraft:?} cannot fly to vertiport {to:?}: the flight needs {needs}, and a full battery has {battery}",
+        needs = needed(*energy_mwh, *reserve_mwh),
+        battery = kwh(*battery_mwh)
     )]
     OutOfRange {
         /// The aircraft that decides.
         aircraft: String,
         /// The vertiport that was chosen.
         to: String,
+        /// Energy of the flight, mWh.
+        energy_mwh: u64,
+        /// Energy that the flight leaves in the battery, mWh.
+        reserve_mwh: u64,
+        /// What a full battery has, mWh.
+        battery_mwh: u64,
     },
     /// The scenario has corridors, and none of them leads to the destination.
     #[error("aircraft {aircraft:?} cannot fly to vertiport {to:?}: no corridor leads there")]
@@ -62,4 +70,27 @@ pub enum Refusal {
         /// The vertiport that was chosen.
         to: String,
     },
+}
+
+/// What a battery needs for a flight and its reserve, if it has one.
+fn needed(energy_mwh: u64, reserve_mwh: u64) -> String {
+    match reserve_mwh {
+        0 => kwh(energy_mwh),
+        _ => format!("{} and a reserve of {}", kwh(energy_mwh), kwh(reserve_mwh)),
+    }
+}
+
+fn kwh(mwh: u64) -> String {
+    format!("{:.1} kWh", mwh as f64 / 1e6)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::needed;
+
+    #[test]
+    fn a_reserve_is_named_where_there_is_one() {
+        assert_eq!(needed(38_000_000, 0), "38.0 kWh");
+        assert_eq!(needed(38_000_000, 10_000_000), "38.0 kWh and a reserve of 10.0 kWh");
+    }
 }

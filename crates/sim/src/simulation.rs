@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use vertifleet_core::{AircraftIx, Charging, Scenario, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Charging, Scenario, Time, VertiportIx, whole_mwh};
 
 use crate::batteries::Batteries;
 use crate::closures::Closures;
@@ -243,7 +243,15 @@ impl Simulation {
         if !self.scenario.is_corridor(decision.at, choice) {
             Refusal::NoCorridor { aircraft, to }
         } else if !self.legs.within_range(decides.kind, decision.at).contains(choice) {
-            Refusal::OutOfRange { aircraft, to }
+            let kind = &self.scenario.aircraft_types[decides.kind.at()];
+            let leg = self.legs.leg(decides.kind, decision.at, choice);
+            Refusal::OutOfRange {
+                aircraft,
+                to,
+                energy_mwh: whole_mwh(leg.energy_kwh),
+                reserve_mwh: whole_mwh(kind.reserve_kwh),
+                battery_mwh: whole_mwh(kind.battery_kwh),
+            }
         } else if self.closures.from(decision.at).contains(choice) {
             Refusal::Closed { aircraft, to }
         } else if !self.stands.open().contains(choice) {

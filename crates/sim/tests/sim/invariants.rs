@@ -6,7 +6,7 @@ use proptest::prelude::{any, prop, prop_assert, prop_assert_eq, proptest};
 use vertifleet_core::{AircraftIx, Charging, Matrix, Scenario, Vertiport, VertiportIx, Warning};
 use vertifleet_sim::{Decision, Refusal, Simulation, TraceRow, first_decision};
 
-use vertifleet_testkit::energy_day;
+use vertifleet_testkit::{energy_day, paper_day};
 
 /// Plays a day, with each draw choosing among the feasible vertiports; the draws are used
 /// cyclically. `each` is called after every step.
@@ -210,4 +210,27 @@ proptest! {
         let (mut simulation, _) = play(&day, &draws, |_, _| ());
         prop_assert_eq!(simulation.apply(VertiportIx(0)), Err(Refusal::DayOver));
     }
+}
+
+/// Flights of `paper` take 2.2 kWh a mile.
+#[test]
+fn a_refusal_out_of_range_has_the_energy_the_reserve_and_the_battery() {
+    let refused = |reserve_kwh| {
+        let mut day = paper_day(1).as_ref().clone().into_day();
+        (day.aircraft_types[0].battery_kwh, day.aircraft_types[0].reserve_kwh) =
+            (45.0, reserve_kwh);
+        (day.aircraft[0].at, day.vertiports[1].stands) = (VertiportIx(0), 48);
+        day.distance_mi[(VertiportIx(0), VertiportIx(1))] = 20.0;
+        day.vertiports[0].stands = 48;
+        let mut simulation = Simulation::new(Arc::new(day.check("a day").expect("a valid day")));
+        simulation.apply(VertiportIx(1)).map_err(|refusal| refusal.to_string())
+    };
+    let text = |needs: &str| format!(r#"aircraft "A01" cannot fly to vertiport "V2": {needs}"#);
+    assert!(refused(1.0).is_ok(), "44 kWh and the reserve fit");
+    assert_eq!(
+        refused(10.0),
+        Err(text(
+            "the flight needs 44.0 kWh and a reserve of 10.0 kWh, and a full battery has 45.0 kWh"
+        ))
+    );
 }
