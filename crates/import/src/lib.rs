@@ -61,7 +61,7 @@ pub struct Request<'a> {
     /// The name of the new network.
     pub name: &'a str,
     /// The vertiports: CSV with the columns `id,latitude,longitude` and, if it likes,
-    /// `stands,chargers,busy,name`; or GeoJSON points with such properties.
+    /// `stands,chargers,charger_kw,busy,name`; or GeoJSON points with such properties.
     pub vertiports: &'a Path,
     /// The demand.
     pub demand: Demand<'a>,

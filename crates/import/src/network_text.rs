@@ -397,6 +397,9 @@ fn vertiport_table(vertiport: &Vertiport) -> Table {
     if let Some(chargers) = vertiport.chargers {
         table.insert("chargers", value(i64::from(chargers)));
     }
+    if let Some(charger_kw) = vertiport.charger_kw {
+        table.insert("charger_kw", Item::Value(number(charger_kw)));
+    }
     table.insert("busy", value(vertiport.busy));
     if let Some(name) = &vertiport.name {
         table.decor_mut().set_suffix(format!("  # {name}"));

@@ -20,18 +20,20 @@ const MOST_LATITUDE: f64 = 89.0;
 const ID: usize = 0;
 const STANDS: usize = 1;
 const CHARGERS: usize = 2;
-const BUSY: usize = 3;
-const NAME: usize = 4;
-const LATITUDE: usize = 5;
-const LONGITUDE: usize = 6;
+const CHARGER_KW: usize = 3;
+const BUSY: usize = 4;
+const NAME: usize = 5;
+const LATITUDE: usize = 6;
+const LONGITUDE: usize = 7;
 /// The names of the columns of a place in a table.
 pub(crate) const LATITUDES: &[&str] = &["latitude", "lat"];
 pub(crate) const LONGITUDES: &[&str] = &["longitude", "lon", "lng", "long"];
 /// The columns of a table, and up to the name the properties of a point.
-const COLUMNS: [Column; 7] = [
+const COLUMNS: [Column; 8] = [
     required(&["id"]),
     optional(&["stands"]),
     optional(&["chargers"]),
+    optional(&["charger_kw"]),
     optional(&["busy"]),
     optional(&["name"]),
     required(LATITUDES),
@@ -46,6 +48,8 @@ pub(crate) struct Vertiport {
     /// Number of stands, if the file gives it.
     pub(crate) stands: Option<u32>,
     pub(crate) chargers: Option<u32>,
+    /// The most power of a charger, if the file gives it, kW.
+    pub(crate) charger_kw: Option<f64>,
     pub(crate) busy: bool,
     pub(crate) name: Option<String>,
 }
@@ -109,6 +113,7 @@ impl Vertiports {
             place,
             stands: count(STANDS)?,
             chargers: count(CHARGERS)?,
+            charger_kw: row.optional_number(CHARGER_KW, 1.0, 100_000.0)?,
             busy: row.optional_flag(BUSY)?.unwrap_or(false),
             name: row.has(NAME).then(|| row.text(NAME)).transpose()?.map(|name| printable(&name)),
             id: id.clone(),

@@ -64,8 +64,8 @@ pub(crate) enum NetworkAction {
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("source").required(true).args(["demand", "trips"]))]
 pub(crate) struct ImportArguments {
-    /// Vertiports: CSV with id,latitude,longitude and optionally stands (4 if absent),
-    /// chargers,busy; or GeoJSON points
+    /// Vertiports: CSV with id,latitude,longitude and optionally stands (4 if absent), chargers,
+    /// charger_kw (the most power of a charger), busy; or GeoJSON points
     #[arg(long, value_name = "FILE")]
     pub(crate) vertiports: PathBuf,
     /// Mean passengers: CSV or Parquet with period,from,to,passengers; a period is a time (06:00)

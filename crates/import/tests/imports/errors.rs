@@ -136,6 +136,9 @@ fn of_vertiports(errors: &mut Errors) {
     ] {
         errors.vertiports("places.csv", format!("{header}{rows}"));
     }
+    let with_power = "id,latitude,longitude,charger_kw\n";
+    errors.vertiports("places.csv", format!("{with_power}A,40.7,-74,0\n"));
+    errors.vertiports("places.csv", format!("{with_power}A,40.7,-74,fast\n"));
     errors.vertiports("places.csv", "id,latitudes,longitude\nA,40.7,-74\n");
     errors.vertiports("places.csv", "id,latitude,x\nA,40.7,-74\n");
     errors.vertiports("places.csv", "id;latitude;longitude\nA;40,7;-74\n");

@@ -90,6 +90,29 @@ fn points_of_a_map_and_rows_of_a_table_give_the_same_vertiports() {
 }
 
 #[test]
+fn powers_of_chargers_are_taken_where_the_file_gives_them() {
+    let folder = Folder::new();
+    let rows = "JRB,40.70112,-74.00880,12,62.5\nJFK,40.63993,-73.77869,20,\nEWR,40.69248,-74.16869,8,150\n";
+    folder.file("vertiports.csv", format!("id,latitude,longitude,stands,charger_kw\n{rows}"));
+    let powers = |network: &Network| {
+        network.vertiports().iter().map(|vertiport| vertiport.charger_kw).collect::<Vec<_>>()
+    };
+    let from_table = run_table(&folder, TABLE).expect("a network");
+    assert_eq!(powers(&from_table.network), [Some(62.5), None, Some(150.0)]);
+    assert!(from_table.toml.contains("charger_kw = 150\n"), "{}", from_table.toml);
+    let features = [
+        point(r#""id":"JRB","charger_kw":62.5"#, -74.008_80, 40.701_12),
+        point(r#""id":"JFK","charger_kw":null"#, -73.778_69, 40.639_93),
+    ];
+    let (base, places) = (new_york(), folder.file("places.geojson", map(&features)));
+    let demand = folder.path("demand.csv");
+    let mut request = request(&base, &places, Demand::Table(&demand));
+    request.aircraft = Some(2);
+    let from_map = run(&request).expect("a network");
+    assert_eq!(powers(&from_map.network), [Some(62.5), None]);
+}
+
+#[test]
 fn stands_that_no_file_gives_are_assumed_with_a_comment() {
     let folder = Folder::new();
     let rows = (0..10).map(|n| format!("V{n},40.{n},-74\n")).collect::<Vec<_>>().concat();
