@@ -54,6 +54,7 @@ fn every_command_of_the_guide_runs() {
         "best/best.toml",
         "fare/figure-response-curves.svg",
         "stands/cells.csv",
+        "chargers/cells.csv",
         "flights.geojson",
         "feed.zip",
         "flights.parquet",

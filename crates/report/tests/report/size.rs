@@ -27,9 +27,13 @@ fn paper() -> Network {
 }
 
 fn sizing(goal: Goal, factors: &[&str]) -> Result<Sizing, Error> {
+    sizing_of(&paper(), goal, factors)
+}
+
+fn sizing_of(network: &Network, goal: Goal, factors: &[&str]) -> Result<Sizing, Error> {
     let policies = ["prices".to_owned()];
     Sizing::new(SizeRequest {
-        network: &paper(),
+        network,
         factors: factors.iter().map(|text| Factor::parse(text).expect("a factor")).collect(),
         goal,
         selection: &Selection { policies: &policies, models: &[], seed: 1 },
@@ -103,6 +107,48 @@ fn no_design_with_any_policy_exceeds_the_proven_bound() {
     let (profit_usd, carried) = played(&best, &["prices"])[0];
     assert!((profit_usd - found.profit_usd.mean).abs() < 1e-6);
     assert!((carried - found.passengers).abs() < 1e-9);
+}
+
+#[test]
+fn a_search_under_another_battery_and_power_keeps_them_and_bounds_every_design() {
+    let quick = Network::shipped("paper-quick").expect("shipped");
+    let costs = serde_json::json!({
+        "tariffs.aircraft_cost_usd_per_day": 300,
+        "aircraft_types.0.battery_kwh": 80,
+        "aircraft_types.0.reserve_kwh": 15,
+        "vertiports.*.charger_kw": 50,
+    });
+    let factors: Vec<String> = costs
+        .as_object()
+        .expect("settings")
+        .iter()
+        .map(|(path, value)| format!("{path}={value}"))
+        .chain(["fleet.0.count=20..40/20".to_owned()])
+        .collect();
+    let factors: Vec<&str> = factors.iter().map(String::as_str).collect();
+    let folder = tempfile::tempdir().expect("a folder");
+    let search = sizing_of(&quick, Goal::MostProfit, &factors).expect("a search");
+    let (records, files) = run(&search, folder.path());
+    let Certificate::MostProfit { no_design_earns_more_than_usd: most, .. } =
+        records.report.certificate
+    else {
+        panic!("{:?}", records.report.certificate)
+    };
+    let text = std::str::from_utf8(&files["best.toml"]).expect("a text");
+    let best = Network::from_toml(text, "best.toml").expect("a network");
+    assert_eq!(best.aircraft_types()[0].battery_kwh, 80.0);
+    assert_eq!(best.aircraft_types()[0].reserve_kwh, 15.0);
+    assert!(best.vertiports().iter().all(|vertiport| vertiport.charger_kw == Some(50.0)));
+    for aircraft in [20, 40] {
+        let mut changes = costs.as_object().expect("changes").clone();
+        changes.insert("fleet.0.count".to_owned(), aircraft.into());
+        let design = quick.changed(&changes).expect("a design");
+        for (profit_usd, _) in played(&design, &["greedy", "prices", "rolling"]) {
+            assert!(profit_usd <= most, "{aircraft}: {profit_usd} of {most}");
+            let found = records.report.found().profit_usd.mean;
+            assert!(profit_usd <= 1.05 * found, "{aircraft}: {profit_usd}, found {found}");
+        }
+    }
 }
 
 #[test]

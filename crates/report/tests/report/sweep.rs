@@ -29,10 +29,19 @@ fn paper() -> Network {
 }
 
 fn sweep(factors_of: &[&str], design: Design, days: u32) -> Result<Sweep, vertifleet_study::Error> {
+    sweep_of(&paper(), factors_of, design, days)
+}
+
+fn sweep_of(
+    network: &Network,
+    factors_of: &[&str],
+    design: Design,
+    days: u32,
+) -> Result<Sweep, vertifleet_study::Error> {
     let policies = ["greedy", "prices"].map(str::to_owned);
     let selection = Selection { policies: &policies, models: &[], seed: 1 };
     let request = SweepRequest {
-        network: &paper(),
+        network,
         factors: factors(factors_of),
         design,
         selection: &selection,
@@ -236,6 +245,36 @@ fn closures_can_be_varied() {
     assert_ne!(open, closed, "the closure matters");
     let (profit_usd, of_open_usd) = (closed[1][0].profit_usd, open[1][0].profit_usd);
     assert!(profit_usd < of_open_usd, "{profit_usd} {of_open_usd}");
+}
+
+#[test]
+fn batteries_reserves_and_powers_can_be_varied() {
+    let varied = [
+        "aircraft_types.*.battery_kwh=80,110",
+        "aircraft_types.*.reserve_kwh=0,20",
+        "aircraft_types.*.charge_kw=60,150",
+        "vertiports.*.charger_kw=40,150",
+    ];
+    let network = Network::shipped("paper-quick").expect("shipped");
+    let sweep = sweep_of(&network, &varied, Design::Grid, 1).expect("a sweep");
+    assert_eq!((sweep.playable(), sweep.missing().len()), (16, 16));
+    sweep.run(&Stop::default(), &|| ()).expect("all cells");
+    let profits_usd: Vec<f64> =
+        sweep.finished().map(|record| record.totals[1][0].profit_usd).collect();
+    // The last factor varies fastest: the first of these has more of everything but the reserve.
+    let (strong, weak) = (profits_usd[11], profits_usd[4]);
+    assert!(strong > 1.1 * weak, "{profits_usd:?}");
+    let record = sweep.finished().find(|record| record.cell == 6).expect("it was played");
+    let changes = serde_json::json!({
+        "aircraft_types.*.battery_kwh": 80, "aircraft_types.*.reserve_kwh": 20,
+        "aircraft_types.*.charge_kw": 150, "vertiports.*.charger_kw": 40,
+    });
+    let network = network.changed(changes.as_object().expect("changes")).expect("a network");
+    let day = network.draw(DaySeed::comparison(7).expect("a seed"));
+    let mut simulation = vertifleet_sim::Simulation::new(std::sync::Arc::new(day));
+    let mut greedy = vertifleet_policy::Greedy;
+    vertifleet_policy::play(&mut simulation, &mut greedy, |_| ()).expect("a whole day");
+    assert_eq!(record.totals[0][0], simulation.totals());
 }
 
 #[test]
