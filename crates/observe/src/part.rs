@@ -37,6 +37,8 @@ pub enum Part {
     ChoicePassengers,
     ChoiceFlightTime,
     ChoiceBlockTime,
+    ChoiceWait,
+    ChoiceCharge,
     DemandLeft,
     DemandNext,
     Fare,
@@ -60,6 +62,7 @@ pub enum Part {
     FleetType,
     FleetReady,
     FleetFlying,
+    FleetCharge,
     FleetDeciding,
     Nodes,
     Aircraft,
@@ -131,7 +134,7 @@ const FULL: Shape = Observation::Full.shape(0);
 
 /// All parts, in the order of [`Part`].
 #[rustfmt::skip]
-const INFOS: [Info; 46] = [
+const INFOS: [Info; 49] = [
     info(Part::ActionMask, ("action_mask", Some("action_mask")), V, NONE, SHARE,
         "1 for each feasible choice; the deciding aircraft's own vertiport is hold"),
     info(Part::VertiportMask, ("vertiport_mask", None), V, NONE, SHARE,
@@ -154,6 +157,10 @@ const INFOS: [Info; 46] = [
         "time from the decision to the landing of that flight; 0 for hold and out of range"),
     info(Part::ChoiceBlockTime, ("choice_block_time", Some("choice_block_time_h")), V, HOURS, POSITIVE,
         "time from the decision until the aircraft decides again; the hold time for hold, 0 out of range"),
+    info(Part::ChoiceWait, ("choice_wait", Some("choice_wait_h")), V, HOURS, POSITIVE,
+        "time from the decision until the battery has enough for that flight, which takes off then; 0 for hold and out of range"),
+    info(Part::ChoiceCharge, ("choice_charge", Some("choice_charge_kwh")), V, KWH, POSITIVE,
+        "charge of the battery when the aircraft decides again after that flight or hold; 0 out of range"),
     info(Part::DemandLeft, ("demand_left", Some("demand_left")), PAIR, PASSENGERS, POSITIVE,
         "passengers of this period who still want to fly"),
     info(Part::DemandNext, ("demand_next", Some("demand_next")), PAIR, PASSENGERS, POSITIVE,
@@ -200,6 +207,8 @@ const INFOS: [Info; 46] = [
         "time until each aircraft is expected to decide; an outage counts once it has begun"),
     info(Part::FleetFlying, ("fleet_flying", Some("fleet_flying")), FLEET, NONE, SHARE,
         "1 for each aircraft in the air"),
+    info(Part::FleetCharge, ("fleet_charge", Some("fleet_charge_kwh")), FLEET, KWH, POSITIVE,
+        "charge of each battery when its aircraft is expected to decide"),
     info(Part::FleetDeciding, ("fleet_deciding", None), FLEET, NONE, SHARE,
         "the deciding aircraft, one-hot"),
     info(Part::Nodes, ("nodes", None), &[Axis::Vertiports, Axis::PaperNode], NONE, POSITIVE,
@@ -275,6 +284,12 @@ impl Part {
         let of_the_paper =
             matches!(self, Self::Nodes | Self::Aircraft | Self::Clock | Self::Adjacency);
         of_the_paper || self.is_priced() || self.is_of_the_full()
+    }
+
+    /// Whether the part concerns what batteries hold, which matters only on days that charge as
+    /// needed.
+    pub fn is_of_charge(self) -> bool {
+        matches!(self, Self::ChoiceWait | Self::ChoiceCharge | Self::FleetCharge)
     }
 
     /// Whether the part's array has the shape of one network, and cannot be padded to that of a

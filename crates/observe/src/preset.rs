@@ -7,7 +7,7 @@ pub const PRESETS: [&str; 4] = ["paper", "full", "gcaps-x", "gcaps-full"];
 
 /// The parts of a named observation, or `None` for other names; all of them have the mask:
 /// - `paper`: the observation of §IV.A.
-/// - `full`: every part that needs no bid prices.
+/// - `full`: every part that needs no bid prices, except for the charge of batteries.
 /// - `gcaps-x`: the observation of that policy.
 /// - `gcaps-full`: the observation of `mlp-full`, and of `gcaps-full` on the complete graph.
 pub fn preset(name: &str) -> Option<Vec<Part>> {
@@ -15,7 +15,9 @@ pub fn preset(name: &str) -> Option<Vec<Part>> {
         "paper" => {
             vec![Part::Nodes, Part::Aircraft, Part::Clock, Part::Adjacency, Part::ActionMask]
         }
-        "full" => Part::all().filter(|part| !part.is_of_a_policy()).collect(),
+        "full" => {
+            Part::all().filter(|part| !part.is_of_a_policy() && !part.is_of_charge()).collect()
+        }
         "gcaps-x" => {
             vec![Part::PricedNodes, Part::PricedAircraft, Part::PricedWorth, Part::ActionMask]
         }

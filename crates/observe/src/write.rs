@@ -1,7 +1,7 @@
 //! Writes each part from the view of the day.
 
 use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
-use vertifleet_sim::Leg;
+use vertifleet_sim::{Leg, Outcome};
 
 use crate::column::hours;
 use crate::full::{self, Edges};
@@ -43,12 +43,18 @@ impl Writer<'_> {
             Part::Place => to[self.scene.decision.at.at()] = 1.0,
             Part::Type => to[self.scene.kind().at()] = 1.0,
             Part::Types => self.types(to),
-            Part::ChoiceProfit => self.choices(to, factor, |flight| self.profit_usd(flight)),
-            Part::ChoicePassengers => self.choices(to, factor, |flight| f64::from(self.boarding(flight.to))),
-            Part::ChoiceFlightTime => self.choices(to, factor, |flight| hours(flight.leg.flight_s)),
+            Part::ChoiceProfit => self.choices(to, factor, |to| self.profit_usd(to)),
+            Part::ChoicePassengers => self.choices(to, factor, |to| f64::from(self.boarding(to))),
+            Part::ChoiceFlightTime => self.choices(to, factor, |to| self.hours_to(self.outcome(to).arrival)),
             Part::ChoiceBlockTime => {
-                self.choices(to, factor, |flight| self.block_h(flight));
+                self.choices(to, factor, |to| self.hours_to(self.outcome(to).ready));
                 to[self.scene.decision.at.at()] = (hours(view.hold_s()) * factor) as f32;
+            }
+            Part::ChoiceWait => self.choices(to, factor, |to| self.hours_to(self.outcome(to).takeoff)),
+            Part::ChoiceCharge => {
+                self.choices(to, factor, |to| self.charge_kwh(to));
+                let own = self.scene.decision.at;
+                to[own.at()] = (self.charge_kwh(own) * factor) as f32;
             }
             Part::DemandLeft => pairs().counts(to, view.demand_left_in(view.period())),
             Part::DemandNext => self.next_period(|period| pairs().counts(to, view.demand_left_in(period))),
@@ -73,6 +79,7 @@ impl Writer<'_> {
             Part::FleetType => self.mark_fleet(to, self.sizes.types, |at| view.kind(at).at()),
             Part::FleetReady => self.fleet(to, |at| hours(view.ready_at(at).since(self.now())) * factor),
             Part::FleetFlying => self.fleet(to, |at| f64::from(u8::from(view.arrives_at(at) > self.now()))),
+            Part::FleetCharge => self.fleet(to, |at| view.charge_kwh(at) * factor),
             Part::FleetDeciding => to[self.scene.decision.aircraft.at()] = 1.0,
             Part::Nodes => self.scales.write_nodes(to, view),
             Part::Aircraft => self.scales.write_aircraft(to, self.scene.decision, view),
@@ -132,11 +139,10 @@ impl Writer<'_> {
     }
 
     /// Writes a number for each vertiport that the deciding aircraft could fly to.
-    fn choices(&self, to: &mut [f32], factor: f64, number: impl Fn(Flight<'_>) -> f64) {
+    fn choices(&self, to: &mut [f32], factor: f64, number: impl Fn(VertiportIx) -> f64) {
         let Scene { view, decision, .. } = *self.scene;
-        let legs = view.legs_from(self.scene.kind(), decision.at);
         for at in view.within_range(self.scene.kind(), decision.at).iter() {
-            to[at.at()] = (number(Flight { to: at, leg: &legs[at.at()] }) * factor) as f32;
+            to[at.at()] = (number(at) * factor) as f32;
         }
     }
 
@@ -147,16 +153,27 @@ impl Writer<'_> {
         view.demand_left(view.period(), decision.at, to).min(seats)
     }
 
-    /// Hours from the decision until the aircraft is ready again.
-    fn block_h(&self, Flight { to, .. }: Flight<'_>) -> f64 {
-        let Scene { view, decision, .. } = *self.scene;
-        hours(view.outcome(decision, to).ready.since(decision.time))
+    fn outcome(&self, to: VertiportIx) -> Outcome {
+        self.scene.view.outcome(self.scene.decision, to)
     }
 
-    fn profit_usd(&self, Flight { to, .. }: Flight<'_>) -> f64 {
+    fn hours_to(&self, time: Time) -> f64 {
+        hours(time.since(self.now()))
+    }
+
+    /// What the battery of the deciding aircraft holds after a choice, when it decides again.
+    fn charge_kwh(&self, to: VertiportIx) -> f64 {
+        let Scene { view, decision, .. } = *self.scene;
+        if view.charges_as_needed() {
+            return self.outcome(to).charge_mwh as f64 / 1e6;
+        }
+        view.charge_kwh(decision.aircraft)
+    }
+
+    fn profit_usd(&self, to: VertiportIx) -> f64 {
         let Scene { view, decision, .. } = *self.scene;
         let waiting = view.demand_left(view.period(), decision.at, to);
-        let takeoff = view.outcome(decision, to).takeoff;
+        let takeoff = self.outcome(to).takeoff;
         let departures = view.departures(decision.time, self.scene.kind(), decision.at);
         departures.profit_from_usd(takeoff, to, waiting)
     }
@@ -226,13 +243,6 @@ impl Writer<'_> {
             to[at.at() * stride + position(at)] = 1.0;
         }
     }
-}
-
-/// A flight that the deciding aircraft could begin.
-#[derive(Clone, Copy)]
-struct Flight<'a> {
-    to: VertiportIx,
-    leg: &'a Leg,
 }
 
 fn scaled(to: &mut [f32], from: &[f64], factor: f64) {

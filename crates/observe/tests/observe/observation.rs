@@ -6,7 +6,9 @@ use proptest::prelude::*;
 use vertifleet_core::{
     AircraftIx, DaySeed, Network, Purpose, Scenario, VertiportIx, random_network,
 };
-use vertifleet_observe::{Layout, Observation, Observer, Part, Row, Scene, Shape, Sizes, Writer};
+use vertifleet_observe::{
+    Layout, Observation, Observer, PRESETS, Part, Row, Scene, Shape, Sizes, Writer, preset,
+};
 use vertifleet_sim::{Decision, Simulation, View};
 
 /// All parts, padded by the sizes in `extra`.
@@ -58,20 +60,7 @@ fn check_against_the_view(layout: &Layout, row: &[f32], view: View<'_>, decision
             f64::from(view.stands_taken()[from.at()]) / 10.0,
             "taken",
         );
-        let (leg, here) = (view.leg(kind, decision.at, from), decision.at);
-        let profit_usd = if reach(here).contains(from) {
-            let waiting = view.demand_left(period, here, from);
-            view.flight_profit_usd(decision.time, kind, (here, from), waiting)
-        } else {
-            0.0
-        };
-        close(get(Part::ChoiceProfit)[from.at()], profit_usd / 100.0, "profit");
-        let block_s = match (from == here, reach(here).contains(from)) {
-            (true, _) => view.hold_s(),
-            (false, true) => leg.block_s(),
-            (false, false) => 0,
-        };
-        close(get(Part::ChoiceBlockTime)[from.at()], f64::from(block_s) / 3600.0, "block");
+        check_the_choice(get, view, decision, from);
         for to in VertiportIx::all(size) {
             let at = from.at() * stride + to.at();
             let left = view.demand_left(period, from, to);
@@ -101,10 +90,53 @@ fn check_against_the_view(layout: &Layout, row: &[f32], view: View<'_>, decision
         close(get(Part::FleetReady)[at], f64::from(ready_s) / 3600.0, "ready");
         let flies = view.arrives_at(aircraft) > decision.time;
         assert_eq!(get(Part::FleetFlying)[at], f32::from(flies));
+        close(get(Part::FleetCharge)[at], view.charge_kwh(aircraft) / 100.0, "charge");
         assert_eq!(get(Part::FleetDeciding)[at], f32::from(aircraft == decision.aircraft));
     }
     assert_eq!(get(Part::FleetPlace).iter().sum::<f32>(), view.places().len() as f32);
     assert_eq!(get(Part::FleetMask).iter().sum::<f32>(), view.places().len() as f32);
+}
+
+/// Compares the parts about a choice with what follows from it.
+fn check_the_choice<'a>(
+    get: impl Fn(Part) -> &'a [f32],
+    view: View<'_>,
+    decision: &Decision,
+    to: VertiportIx,
+) {
+    let (kind, here) = (view.kind(decision.aircraft), decision.at);
+    let full_kwh = view.aircraft_type(kind).battery_kwh;
+    let is_reached = view.within_range(kind, here).contains(to);
+    let (mut profit_usd, mut wait_s, mut flight_s, mut block_s, mut kwh) = (0.0, 0, 0, 0, 0.0);
+    if is_reached || to == here {
+        let outcome = view.outcome(decision, to);
+        wait_s = outcome.takeoff.since(decision.time);
+        flight_s = outcome.arrival.since(decision.time);
+        block_s = outcome.ready.since(decision.time);
+        let as_needed = view.charges_as_needed();
+        kwh = if as_needed { outcome.charge_mwh as f64 / 1e6 } else { full_kwh };
+        assert!(as_needed || wait_s == 0, "full aircraft wait for no charge");
+        assert!((0.0..=full_kwh).contains(&kwh), "a battery holds {kwh} kWh of {full_kwh}");
+    }
+    if is_reached {
+        let waiting = view.demand_left(view.period(), here, to);
+        let departures = view.departures(decision.time, kind, here);
+        profit_usd = departures.profit_from_usd(decision.time + wait_s, to, waiting);
+        let leg = view.leg(kind, here, to);
+        assert_eq!((flight_s, block_s), (wait_s + leg.flight_s, wait_s + leg.block_s()));
+    }
+    let hours = |seconds: u32| f64::from(seconds) / 3600.0;
+    for (of, expected) in [
+        (Part::ChoiceProfit, profit_usd / 100.0),
+        (Part::ChoiceWait, hours(wait_s)),
+        (Part::ChoiceFlightTime, hours(flight_s)),
+        (Part::ChoiceBlockTime, hours(block_s)),
+        (Part::ChoiceCharge, kwh / 100.0),
+    ] {
+        let found = f64::from(get(of)[to.at()]);
+        let allowed = 1e-5 * expected.abs().max(1.0);
+        assert!((found - expected).abs() <= allowed, "{of:?}: {found}, {expected}");
+    }
 }
 
 /// Compares the observation of full policies with the other parts.
@@ -137,13 +169,15 @@ fn check_the_full<'a>(
         let open = get(Part::Adjacency)[at] == 1.0 && to != here;
         let expected = if open { profit_per_h.clamp(0.0, 3.0) } else { 0.0 };
         let profit = get(Part::ProfitEdges)[at];
-        assert!((profit - expected).abs() < 1e-6, "{profit}, {expected}");
+        // Edges show the flight of an aircraft that has the charge for it.
+        let is_charged = get(Part::ChoiceWait)[to] == 0.0;
+        assert!(!is_charged || (profit - expected).abs() < 1e-6, "{profit}, {expected}");
     }
 }
 
 fn days() -> Vec<Arc<Scenario>> {
     let seed = |number| DaySeed::training_number(number).expect("a number");
-    let shipped = ["paper", "disrupted", "new-york"]
+    let shipped = ["paper", "disrupted", "new-york", "paper-quick", "new-york-quick"]
         .map(|name| Arc::new(Network::shipped(name).expect("a shipped network").draw(seed(3))));
     let random =
         (0..3).map(|number| Arc::new(random_network(Purpose::Training, number).draw(seed(number))));
@@ -210,8 +244,24 @@ fn policies_observe_the_values_of_the_parts() {
 }
 
 #[test]
+fn observations_by_name_do_not_depend_on_charge_beyond_that_of_the_paper() {
+    let of_charge = |part: &Part| part.is_of_charge();
+    assert_eq!(Part::all().filter(of_charge).count(), 3);
+    for name in PRESETS {
+        let parts = preset(name).expect("an observation of ours");
+        assert!(!parts.iter().any(of_charge), "{name}");
+    }
+}
+
+#[test]
 fn a_row_takes_no_memory_after_the_first_of_a_day() {
-    let network = Network::shipped("disrupted").expect("a shipped network");
+    for name in ["disrupted", "paper-quick"] {
+        rows_take_no_memory_after_the_first(name);
+    }
+}
+
+fn rows_take_no_memory_after_the_first(name: &str) {
+    let network = Network::shipped(name).expect("a shipped network");
     let day = Arc::new(network.draw(DaySeed::training_number(1).expect("a number")));
     let parts = Part::all().filter(|part| !part.is_priced()).collect();
     let layout = Layout::new(parts, Sizes::of(&network));
