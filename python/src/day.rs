@@ -6,7 +6,7 @@ use pyo3::IntoPyObject;
 use vertifleet_core::{self as core, AircraftIx, VertiportIx};
 use vertifleet_learn::Reward;
 use vertifleet_observe::{self as observe, Observer, Scene, Sizes};
-use vertifleet_sim::{DayTotals, Decision, Simulation, TraceRow};
+use vertifleet_sim::{DayTotals, Decision, Simulation, TraceRow, first_decision};
 
 use crate::days::Days;
 use crate::failure::Failure;
@@ -60,6 +60,7 @@ pub(crate) struct OutcomeFields {
     energy_cost_usd: f64,
     flight_cost_usd: f64,
     profit_usd: f64,
+    takeoff_s: u32,
     arrival_s: u32,
     ready_s: u32,
     invalid_action: bool,
@@ -80,6 +81,7 @@ impl From<&Outcome> for OutcomeFields {
             energy_cost_usd: row.energy_cost_usd,
             flight_cost_usd: row.flight_cost_usd,
             profit_usd: row.profit_usd(),
+            takeoff_s: row.takeoff.seconds(),
             arrival_s: row.arrival.seconds(),
             ready_s: row.ready.seconds(),
             invalid_action: *invalid,
@@ -131,12 +133,15 @@ impl World {
         Ok(Day::new(Arc::clone(&scenario.scenario), self.days.observer()))
     }
 
-    /// Checks that observations have room for a day.
+    /// Checks that a day has decisions, and that observations have room for it.
     pub(crate) fn check_fits(&self, day: &core::Scenario) -> Result<(), Failure> {
+        let mut fleet = AircraftIx::all(day.aircraft.len());
         let (most, found) = (self.layout().sizes(), Sizes::of_day(day));
         let is_of_one_size =
             self.layout().parts().iter().any(|placed| placed.part.is_of_one_size());
-        let rule = if is_of_one_size && found.vertiports != most.vertiports {
+        let rule = if fleet.all(|aircraft| first_decision(day, aircraft) > day.operations.end) {
+            "has no decisions: every battery is full only after operations end".to_owned()
+        } else if is_of_one_size && found.vertiports != most.vertiports {
             format!(
                 "has {} vertiports, but the environment has {}",
                 found.vertiports, most.vertiports

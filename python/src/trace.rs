@@ -63,7 +63,8 @@ impl Trace {
 
     /// The columns as numpy arrays, with the same names as in the file. Times are in seconds since
     /// midnight, money in dollars and energy in kWh. `aircraft`, `from` and `to` are positions in
-    /// `Scenario.aircraft` and `Scenario.vertiports`. A hold goes from a vertiport to itself.
+    /// `Scenario.aircraft` and `Scenario.vertiports`. A hold goes from a vertiport to itself. Only
+    /// days that charge as needed have columns `charge_kwh`, at the decision, and `takeoff`.
     #[getter]
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let rows = &self.trace.rows;
@@ -81,6 +82,10 @@ impl Trace {
         columns.counts("ready", rows.iter().map(|row| row.ready.seconds()))?;
         if self.scenario.has_flight_costs() {
             columns.numbers("flight_cost", rows.iter().map(|row| row.flight_cost_usd))?;
+        }
+        if self.scenario.operations.charging == core::Charging::AsNeeded {
+            columns.numbers("charge_kwh", rows.iter().map(|row| row.charge_kwh))?;
+            columns.counts("takeoff", rows.iter().map(|row| row.takeoff.seconds()))?;
         }
         Ok(columns.into_dict())
     }

@@ -74,6 +74,12 @@ impl View {
         view.aircraft_type(view.kind(self.decision.aircraft)).seats
     }
 
+    /// What the battery of that aircraft holds, kWh; its capacity on a day that charges to full.
+    #[getter]
+    fn charge_kwh(&self) -> f64 {
+        self.snapshot.view().charge_kwh(self.decision.aircraft)
+    }
+
     /// Number of decisions taken before this one today.
     #[getter]
     fn index(&self) -> u32 {

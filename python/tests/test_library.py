@@ -120,6 +120,11 @@ def test_results_are_frames_where_the_libraries_are_installed(
     trace = vertifleet.simulate(day).trace
     frame = getattr(trace, f"to_{library}")()
     assert frame.shape == (len(trace), 11)
+    quick = vertifleet.simulate(Network("paper-quick").draw(1)).trace
+    frame = getattr(quick, f"to_{library}")()
+    assert list(frame.columns[-2:]) == ["charge_kwh", "takeoff"]
+    assert (frame["takeoff"] >= frame["time"]).all()
+    assert frame["charge_kwh"].max() == 110
     comparison = vertifleet.compare(paper, ["greedy", "prices"], days=3)
     frame = getattr(comparison, f"to_{library}")()
     assert list(frame["policy"]) == ["greedy"] * 3 + ["prices"] * 3

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import json
 import pickle
 from typing import Any
 
@@ -74,6 +75,83 @@ def test_a_view_has_the_same_numbers_in_units_and_is_read_only() -> None:
         observation, *_ = env.step(int(env.action_masks().argmax()))
     with pytest.raises(AttributeError, match="scenario"):
         _ = view.scenario
+
+
+CHARGE = ["choice_wait", "choice_charge", "fleet_charge"]
+
+
+class Recorder:
+    """A policy that takes the feasible choices in turn, and records what views show of charge."""
+
+    def __init__(self) -> None:
+        self.seen: list[tuple[float, ...]] = []
+
+    def reset(self, view: View) -> None:
+        assert view.decision.step == 0
+
+    def choose(self, decision: vertifleet.Decision, view: View) -> int:
+        feasible = np.flatnonzero(view.action_mask)
+        choice = int(feasible[decision.step % len(feasible)])
+        of_fleet = view.fleet_charge_kwh[decision.aircraft]
+        hours = (view.choice_wait_h[choice], view.choice_flight_time_h[choice])
+        self.seen.append((view.charge_kwh, of_fleet, *hours, view.choice_charge_kwh[choice]))
+        return choice
+
+
+def test_a_view_shows_the_charge_and_the_times_that_the_trace_has() -> None:
+    network, recorder = Network("paper-quick"), Recorder()
+    trace = vertifleet.simulate(network.draw(3), recorder, network=network).trace.columns
+    charge, of_fleet, wait_h, flight_h, after = np.array(recorder.seen).T
+    assert np.array_equal(trace["charge_kwh"], charge)
+    assert np.allclose(of_fleet, charge)
+    assert np.allclose(trace["takeoff"] - trace["time"], 3600 * wait_h, atol=0.01)
+    assert np.allclose(trace["arrival"] - trace["time"], 3600 * flight_h, atol=0.01)
+    assert (wait_h > 0).sum() > 20
+    assert charge.min() < 55
+    for aircraft in range(40):
+        own = trace["aircraft"] == aircraft
+        assert np.allclose(charge[own][1:], after[own][:-1])
+
+
+@pytest.mark.parametrize("network", ["new-york-quick", "disrupted"])
+def test_observations_of_charge_are_those_of_views_and_full_where_days_charge_to_full(network: str) -> None:
+    batch = FleetVectorEnv(2, network, observation=CHARGE, threads=2)
+    env = FleetEnv(network, observation=CHARGE)
+    shown, _ = batch.reset(seed=7)
+    one, info = env.reset(seed=7)
+    waits = 0
+    for step in range(200):
+        assert env.observation_space.contains(one)
+        view, feasible = env.view, np.flatnonzero(info["action_mask"])
+        for name, scale, in_view in [
+            ("choice_wait", 1, view.choice_wait_h),
+            ("choice_charge", 100, view.choice_charge_kwh),
+            ("fleet_charge", 100, view.fleet_charge_kwh),
+        ]:
+            assert np.array_equal(shown[name][0], one[name]), name
+            assert np.allclose(in_view, scale * one[name]), name
+        waits += int((one["choice_wait"] > 0).sum())
+        if network == "disrupted":
+            assert np.allclose(one["fleet_charge"], 1.1)
+            assert np.allclose(one["choice_charge"][feasible], 1.1)
+            assert view.charge_kwh == 110
+        action = int(feasible[step % len(feasible)])
+        one, *_, info = env.step(action)
+        shown, *_ = batch.step([action, action])
+    assert (waits > 0) == (network == "new-york-quick")
+
+
+def test_a_day_on_which_no_aircraft_is_full_in_time_is_refused() -> None:
+    day = json.loads(Network("paper").draw(1).to_json())
+    for aircraft in day["aircraft"]:
+        aircraft["start_charge_kwh"] = 0
+    for kind in day["aircraft_types"]:
+        kind["charge_kw"] = 1
+    scenario = vertifleet.Scenario.from_json(json.dumps(day))
+    with pytest.raises(vertifleet.Error, match="has no decisions"):
+        FleetEnv().reset(options={"scenario": scenario})
+    with pytest.raises(vertifleet.Error, match="has no decisions"):
+        FleetVectorEnv(2).reset(options={"scenario": [scenario, scenario]})
 
 
 def test_views_have_the_members_of_their_class() -> None:

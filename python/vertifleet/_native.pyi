@@ -227,7 +227,8 @@ class Trace:
     def columns(self) -> dict[str, NDArray[Any]]:
         """The columns as numpy arrays, with the same names as in the file. Times are in seconds since
         midnight, money in dollars and energy in kWh. `aircraft`, `from` and `to` are positions in
-        `Scenario.aircraft` and `Scenario.vertiports`. A hold goes from a vertiport to itself.
+        `Scenario.aircraft` and `Scenario.vertiports`. A hold goes from a vertiport to itself. Only days
+        that charge as needed have columns `charge_kwh`, at the decision, and `takeoff`.
         """
     def to_pandas(self) -> pd.DataFrame:
         """The columns as a pandas `DataFrame`."""
@@ -568,6 +569,9 @@ class View:
     @property
     def seats(self) -> int:
         """Number of seats of that aircraft."""
+    @property
+    def charge_kwh(self) -> float:
+        """What the battery of that aircraft holds, kWh; its capacity on a day that charges to full."""
     @property
     def index(self) -> int:
         """Number of decisions taken before this one today."""

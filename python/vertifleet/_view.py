@@ -40,6 +40,7 @@ class Outcome(TypedDict):
     energy_cost_usd: float
     flight_cost_usd: float
     profit_usd: float
+    takeoff_s: int
     arrival_s: int
     ready_s: int
     invalid_action: bool
@@ -66,6 +67,10 @@ class View:
     """[N] time from the decision to the landing of that flight."""
     choice_block_time_h: Numbers
     """[N] time from the decision until the aircraft decides again."""
+    choice_wait_h: Numbers
+    """[N] time from the decision until the charge suffices for that flight, which takes off then."""
+    choice_charge_kwh: Numbers
+    """[N] charge of the battery when the aircraft decides again."""
     demand_left: Numbers
     """[N, N] passengers of this period who still want to fly."""
     demand_next: Numbers
@@ -106,6 +111,8 @@ class View:
     """[A] time until each aircraft is expected to decide."""
     fleet_flying: Numbers
     """[A] 1 for each aircraft in the air."""
+    fleet_charge_kwh: Numbers
+    """[A] charge of each battery when its aircraft is expected to decide."""
 
     def __init__(self, native: _native.View) -> None:
         self._native = native
@@ -149,6 +156,11 @@ class View:
     def seats(self) -> int:
         """Number of seats of the deciding aircraft."""
         return self._native.seats
+
+    @property
+    def charge_kwh(self) -> float:
+        """Charge of the deciding aircraft's battery; its capacity on a day that charges to full."""
+        return self._native.charge_kwh
 
     @property
     def aircraft_type(self) -> int:
