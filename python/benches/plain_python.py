@@ -7,7 +7,10 @@ take-off delays, closures, outages, corridors and chargers besides stands; a day
 """
 
 import heapq
+import math
+from bisect import bisect_right
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import gymnasium
@@ -50,8 +53,81 @@ class Leg(NamedTuple):
 
     energy_kwh: float
     flight_s: int
-    charge_s: int
+    ground_s: int
     feasible: bool
+
+
+class Charger:
+    """How fast one aircraft type charges at one vertiport.
+
+    Between two points of its curve the power is linear in the charge, so the charge is exponential in time.
+    """
+
+    def __init__(self, kind: Mapping[str, Any], vertiport: Mapping[str, Any]) -> None:
+        self.most_kw = min(kind["charge_kw"], vertiport.get("charger_kw", math.inf))
+        self.full_mwh = whole_mwh(kind["battery_kwh"])
+        # Where each segment begins: charge (mWh), seconds from empty, power (mWh/s) with its slope.
+        self.charges: list[float] = []
+        self.seconds: list[float] = []
+        self.powers: list[tuple[float, float]] = []
+        self.full_s = 0.0
+        points = kind.get("charge_curve", [[0.0, self.most_kw], [1.0, self.most_kw]])
+        for (charge, kw), (next_charge, next_kw) in pairwise(self._limited(points)):
+            if next_charge > charge:
+                self._push(charge * self.full_mwh, next_charge * self.full_mwh, kw, next_kw)
+
+    def _limited(self, points: Sequence[Sequence[float]]) -> list[tuple[float, float]]:
+        """The points with at most `most_kw`, and one more wherever the curve crosses it."""
+        most, limited = self.most_kw, [(points[0][0], min(points[0][1], self.most_kw))]
+        for (charge, kw), (next_charge, next_kw) in pairwise(points):
+            if (kw < most) != (next_kw < most):
+                share = (most - kw) / (next_kw - kw)
+                limited.append((charge + share * (next_charge - charge), most))
+            limited.append((next_charge, min(next_kw, most)))
+        return limited
+
+    def _push(self, start: float, end: float, kw: float, end_kw: float) -> None:
+        power = kw * 1e6 / 3600.0
+        self.charges.append(start)
+        self.seconds.append(self.full_s)
+        self.powers.append((power, (end_kw * 1e6 / 3600.0 - power) / (end - start)))
+        self.full_s = self.seconds_to(end)
+
+    def seconds_to(self, mwh: float) -> float:
+        """Seconds from an empty battery to a charge."""
+        at = max(bisect_right(self.charges, mwh) - 1, 0)
+        power, slope = self.powers[at]
+        more = mwh - self.charges[at]
+        return self.seconds[at] + (math.log1p(slope * more / power) / slope if slope else more / power)
+
+    def charged_mwh(self, mwh: int, seconds: int) -> int:
+        """The charge after some seconds, at most a full battery."""
+        if seconds == 0 or mwh >= self.full_mwh:
+            return mwh
+        then = self.seconds_to(mwh) + seconds
+        if then >= self.full_s:
+            return self.full_mwh
+        at = bisect_right(self.seconds, then) - 1
+        power, slope = self.powers[at]
+        more_s = then - self.seconds[at]
+        more = power * math.expm1(slope * more_s) / slope if slope else power * more_s
+        return min(max(nearest(self.charges[at] + more), mwh), self.full_mwh)
+
+    def needed_s(self, mwh: int, needed_mwh: int) -> int:
+        """The fewest whole seconds to a charge."""
+        seconds = max(math.ceil(self.seconds_to(needed_mwh - 0.5) - self.seconds_to(mwh)), 0)
+        while self.charged_mwh(mwh, seconds) < needed_mwh:
+            seconds += 1
+        while seconds > 0 and self.charged_mwh(mwh, seconds - 1) >= needed_mwh:
+            seconds -= 1
+        return seconds
+
+    def refill_s(self, kind: Mapping[str, Any], energy_kwh: float) -> int:
+        """Seconds to charge the last `energy_kwh` of a full battery."""
+        if "charge_curve" in kind:
+            full_kwh = kind["battery_kwh"]
+            return nearest(self.seconds_to(1e6 * full_kwh) - self.seconds_to(1e6 * (full_kwh - energy_kwh)))
+        return nearest(3600.0 * energy_kwh / self.most_kw)
 
 
 class Day:
@@ -63,6 +139,7 @@ class Day:
         self.start, self.end = seconds(operations["start"]), seconds(operations["end"])
         self.takeoff_s, self.landing_s = operations["takeoff_s"], operations["landing_s"]
         self.hold_s = operations["hold_s"]
+        self.as_needed = operations.get("charging") == "as_needed"
 
         names = [vertiport["id"] for vertiport in scenario["vertiports"]]
         self.vertiports = len(names)
@@ -72,7 +149,9 @@ class Day:
         self.places = [names.index(aircraft["at"]) for aircraft in scenario["aircraft"]]
         self.taken = np.bincount(self.places, minlength=self.vertiports)
         self.types = scenario["aircraft_types"]
-        self.legs = [self._legs(kind, scenario["distance_mi"]) for kind in self.types]
+        # [types x N]
+        self.chargers = [[Charger(kind, place) for place in scenario["vertiports"]] for kind in self.types]
+        self.legs = [self._legs(kind, scenario["distance_mi"]) for kind in range(len(self.types))]
 
         self.periods = [seconds(start) for start in scenario["periods"]]
         self.period = 0
@@ -85,9 +164,27 @@ class Day:
         self.potential = float((self.demand * self.fares).sum())
 
         self.revenue = self.passenger_costs = self.energy_costs = 0.0
-        # Ready times with the aircraft's number, which breaks ties; in order, so a heap already.
-        self.ready = [(self.start, aircraft) for aircraft in range(len(self.places))]
+        # What each battery holds at its latest landing, and when that is.
+        self.landed_mwh = [
+            whole_mwh(one.get("start_charge_kwh", self.types[kind]["battery_kwh"]))
+            for one, kind in zip(scenario["aircraft"], self.kinds, strict=True)
+        ]
+        self.landed = [self.start] * len(self.places)
+        # Ready times with the aircraft's number, which breaks ties.
+        self.ready = [(self._first(aircraft), aircraft) for aircraft in range(len(self.places))]
+        heapq.heapify(self.ready)
         self._next_decision()
+
+    def _first(self, aircraft: int) -> int:
+        """The time of an aircraft's first decision: where days charge to full, when its battery is."""
+        kind = self.types[self.kinds[aircraft]]
+        missing_kwh = kind["battery_kwh"] - self.landed_mwh[aircraft] / 1e6
+        if self.as_needed or missing_kwh == 0.0:
+            return self.start
+        return self.start + self._charger(aircraft).refill_s(kind, missing_kwh)
+
+    def _charger(self, aircraft: int) -> Charger:
+        return self.chargers[self.kinds[aircraft]][self.places[aircraft]]
 
     @staticmethod
     def _refuse_what_is_left_out(scenario: Mapping[str, Any]) -> None:
@@ -97,22 +194,38 @@ class Day:
         if found:
             raise ValueError(f"scenario {scenario['name']!r} has {', '.join(found)}; take a day without them")
 
-    def _legs(self, kind: Mapping[str, Any], distance_mi: Sequence[Sequence[float]]) -> list[list[Leg]]:
+    def _legs(self, kind: int, distance_mi: Sequence[Sequence[float]]) -> list[list[Leg]]:
         """[from x to]"""
         return [
-            [self._leg(kind, mi, start == end) for end, mi in enumerate(row)]
+            [self._leg(kind, mi, end, start == end) for end, mi in enumerate(row)]
             for start, row in enumerate(distance_mi)
         ]
 
-    def _leg(self, kind: Mapping[str, Any], distance_mi: float, stays: bool) -> Leg:
-        cruise_s = nearest_second(3600.0 * distance_mi / kind["speed_mph"])
+    def _leg(self, kind_at: int, distance_mi: float, end: int, stays: bool) -> Leg:
+        kind = self.types[kind_at]
+        cruise_s = nearest(3600.0 * distance_mi / kind["speed_mph"])
         flight_s = self.takeoff_s + cruise_s + self.landing_s
         lost_kwh = kind["battery_kwh"] * kind["self_discharge_per_h"] * (flight_s / 3600.0)
         energy_kwh = kind["energy_kwh_per_mi"] * distance_mi + lost_kwh
-        charge_s = nearest_second(3600.0 * energy_kwh / kind["charge_kw"])
-        # Slack for the rounding of a pair exactly at the end of the range.
-        in_range = energy_kwh <= kind["battery_kwh"] * (1.0 + 1e-9)
-        return Leg(energy_kwh, flight_s, charge_s, in_range and not stays)
+        in_range = needed_mwh(kind, energy_kwh) <= whole_mwh(kind["battery_kwh"])
+        ground_s = kind.get("turnaround_s", 0)
+        if in_range and not self.as_needed:
+            ground_s = max(ground_s, self.chargers[kind_at][end].refill_s(kind, energy_kwh))
+        return Leg(energy_kwh, flight_s, ground_s, in_range and not stays)
+
+    def charge_mwh(self, aircraft: int, time: int) -> int:
+        """What a battery holds on a day that charges as needed, from its landing until it takes off."""
+        return self._charger(aircraft).charged_mwh(self.landed_mwh[aircraft], time - self.landed[aircraft])
+
+    def takeoff(self, to: int) -> int:
+        """When the deciding aircraft has the charge for a flight within range."""
+        time, aircraft, at = self.decision
+        if not self.as_needed:
+            return time
+        kind = self.kinds[aircraft]
+        needed = needed_mwh(self.types[kind], self.legs[kind][at][to].energy_kwh)
+        wait_s = self._charger(aircraft).needed_s(self.landed_mwh[aircraft], needed)
+        return max(time, self.landed[aircraft] + wait_s)
 
     @property
     def over(self) -> bool:
@@ -142,11 +255,12 @@ class Day:
         return Flight(0, 0.0, 0.0, 0.0, 0.0, time, time + self.hold_s)
 
     def _fly(self, to: int) -> Flight:
-        time, aircraft, at = self.decision
+        _, aircraft, at = self.decision
         kind = self.kinds[aircraft]
         leg = self.legs[kind][at][to]
         passengers = min(self.types[kind]["seats"], int(self.demand[self.period, at, to]))
-        arrival = time + leg.flight_s
+        takeoff = self.takeoff(to)
+        arrival = takeoff + leg.flight_s
         flight = Flight(
             passengers,
             passengers * float(self.fares[self.period, at, to]),
@@ -154,8 +268,11 @@ class Day:
             leg.energy_kwh,
             leg.energy_kwh * self._energy_price_at(arrival),
             arrival,
-            arrival + leg.charge_s,
+            arrival + leg.ground_s,
         )
+        if self.as_needed:
+            self.landed_mwh[aircraft] = self.charge_mwh(aircraft, takeoff) - whole_mwh(leg.energy_kwh)
+        self.landed[aircraft] = arrival
         self.demand[self.period, at, to] -= passengers
         self.taken[at] -= 1
         self.taken[to] += 1
@@ -220,6 +337,9 @@ class PlainPythonEnv(gymnasium.Env[Observation, np.int64]):
         day = self.day
         _, aircraft, at = day.decision
         mask: NDArray[np.bool_] = self._in_range[day.kinds[aircraft], at] & (day.taken < day.stands)
+        if day.as_needed:
+            for to in np.flatnonzero(mask):
+                mask[to] = day.takeoff(int(to)) <= day.end
         mask[at] = True
         return mask
 
@@ -256,6 +376,9 @@ class PlainPythonEnv(gymnasium.Env[Observation, np.int64]):
         nodes[:, 3] = left.sum(0).astype(np.float32) * np.float32(1 / PASSENGERS)
         state = self._aircraft[day.kinds[aircraft], at].copy()
         state[0] = day.energy_price[day.period] * (1 / ENERGY_PRICE_USD)
+        if day.as_needed:
+            charge_kwh = day.charge_mwh(aircraft, time) / 1e6
+            state[day.vertiports + 1] = charge_kwh * (1 / BATTERY_KWH)
         left_s, day_s = max(day.end - time, 0), max(day.end - day.start, 1)
         return {
             "nodes": nodes.reshape(-1),
@@ -272,6 +395,16 @@ def seconds(clock: str) -> int:
     return hours * 3600 + minutes * 60 + rest
 
 
-def nearest_second(duration: float) -> int:
-    """Halves go up; `round` would take them to the even second."""
-    return int(duration + 0.5)
+def nearest(number: float) -> int:
+    """Halves go up; `round` would take them to the even number."""
+    return int(number + 0.5)
+
+
+def whole_mwh(kwh: float) -> int:
+    """An energy in whole milliwatt-hours."""
+    return nearest(1e6 * kwh)
+
+
+def needed_mwh(kind: Mapping[str, Any], energy_kwh: float) -> int:
+    """What a battery holds at least when a flight takes off."""
+    return whole_mwh(energy_kwh) + whole_mwh(kind.get("reserve_kwh", 0.0))

@@ -51,12 +51,29 @@ def with_little_demand(scenario: Scenario) -> Scenario:
     return scenario | {"demand": demand}
 
 
+def with_a_curve(scenario: Scenario) -> Scenario:
+    """Charging that tapers, weak chargers, a turnaround, and aircraft that start with any charge."""
+    curve = [[0.0, 120.0], [0.3, 160.0], [0.8, 100.0], [1.0, 30.0]]
+    of_type = {"charge_curve": curve, "turnaround_s": 400, "reserve_kwh": 10}
+    types = [kind | of_type for kind in scenario["aircraft_types"]]
+    vertiports = [
+        place | ({"charger_kw": 60.0 + 20.0 * at} if at % 2 else {})
+        for at, place in enumerate(scenario["vertiports"])
+    ]
+    fleet = [one | {"start_charge_kwh": 3.5 * (at % 31)} for at, one in enumerate(scenario["aircraft"])]
+    return scenario | {"aircraft_types": types, "vertiports": vertiports, "aircraft": fleet}
+
+
 # Days of the networks themselves, and days on which rules bind that they leave slack: network,
 # seed, change.
 DAYS: dict[str, tuple[str, int, Callable[[Scenario], Scenario]]] = {
     **{f"paper-{seed}": ("paper", seed, as_drawn) for seed in (1, 2, 3)},
     **{f"new-york-{seed}": ("new-york", seed, as_drawn) for seed in (1, 2)},
     "disrupted-7": ("disrupted", 7, as_drawn),
+    "paper-quick-1": ("paper-quick", 1, as_drawn),
+    "new-york-quick-1": ("new-york-quick", 1, as_drawn),
+    "paper-8 with a curve": ("paper", 8, with_a_curve),
+    "paper-quick-8 with a curve": ("paper-quick", 8, with_a_curve),
     "paper-4 with self-discharge": ("paper", 4, with_self_discharge),
     "paper-5 with short range": ("paper", 5, with_short_range),
     "paper-6 with few stands": ("paper", 6, with_few_stands),
@@ -84,6 +101,10 @@ def test_every_decision_comes_to_what_the_package_says(scenario: Scenario) -> No
         time, aircraft, at = day.decision
         deciding = (time, scenario["aircraft"][aircraft]["id"], vertiports[at])
         assert deciding == (seconds(row["time"]), row["aircraft"], row["from"])
+        if day.as_needed:
+            assert day.charge_mwh(aircraft, time) / 1e6 == float(row["charge_kwh"])
+        if day.as_needed and row["to"] != row["from"]:
+            assert day.takeoff(vertiports.index(row["to"])) == seconds(row["takeoff"])
         assert day.decide(vertiports.index(row["to"])) == (
             int(row["passengers"]),
             *(float(row[name]) for name in ("revenue", "passenger_cost", "energy_kwh", "energy_cost")),
@@ -159,11 +180,12 @@ def test_gymnasium_finds_nothing_wrong() -> None:
     check_env(PlainPythonEnv([draw("paper", seed) for seed in (1, 2)]))
 
 
-def test_observations_are_those_of_the_native_environment() -> None:
+@pytest.mark.parametrize("network", ["paper", "paper-quick"])
+def test_observations_are_those_of_the_native_environment(network: str) -> None:
     for seed in (1, 2):
-        scenario = draw("paper", seed)
+        scenario = draw(network, seed)
         ours = PlainPythonEnv([scenario])
-        native = gymnasium.make("vertifleet/Fleet-v0", network="paper")
+        native = gymnasium.make("vertifleet/Fleet-v0", network=network)
         options = {"scenario": vertifleet.Scenario.from_json(json.dumps(scenario))}
         draws = np.random.default_rng(seed)
         one, info = ours.reset(seed=1)
