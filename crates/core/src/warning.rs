@@ -245,25 +245,25 @@ impl Scenario {
     fn stranded(&self, aircraft: &Aircraft) -> Option<Warning> {
         let (kind, start) = (&self.aircraft_types[aircraft.kind.at()], aircraft.at);
         let place = &self.vertiports[start.at()];
-        let (id, kind_id, at) = (aircraft.id.clone(), kind.id.clone(), place.id.clone());
+        let (name, of_type, at) = (aircraft.id.clone(), kind.id.clone(), place.id.clone());
         let flown = self.others(start).filter(|&to| self.can_fly(kind, start, to));
         let energies = flown.map(|to| self.energy_kwh(kind, self.distance_mi[(start, to)]));
         let Some(least_mwh) = energies.map(|kwh| kind.needed_mwh(kwh)).min() else {
-            return Some(Warning::NoDestination { aircraft: id, kind: kind_id, at });
+            return Some(Warning::NoDestination { aircraft: name, kind: of_type, at });
         };
         let rate = ChargeRate::of(kind, place);
         let start_mwh = whole_mwh(self.start_charge_kwh(aircraft));
-        let (needed_mwh, charged_s) = match self.operations.charging {
+        let (leaves_with_mwh, charged_s) = match self.operations.charging {
             Charging::ToFull => (rate.full_mwh(), nearest_second(rate.to_full_s(start_mwh))),
             Charging::AsNeeded => (least_mwh, rate.needed_s(start_mwh, least_mwh)),
         };
         let charged_at = self.operations.start + charged_s;
-        let (needed_kwh, end) = (needed_mwh as f64 / 1e6, self.operations.end);
+        let end = self.operations.end;
         let too_late = Warning::ChargedTooLate {
-            aircraft: id,
-            kind: kind_id,
+            aircraft: name,
+            kind: of_type,
             at,
-            needed_kwh,
+            needed_kwh: leaves_with_mwh as f64 / 1e6,
             charged_at,
             end,
         };

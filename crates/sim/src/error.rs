@@ -1,5 +1,7 @@
 //! The reasons why a decision is refused. A refused decision changes nothing.
 
+use std::fmt;
+
 /// The rule that a decision outside the mask breaks. Aircraft and vertiports are named by their
 /// ids.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -16,22 +18,14 @@ pub enum Refusal {
         vertiports: usize,
     },
     /// A full battery does not last for the flight (Eq. 12), or for the flight and the reserve.
-    #[error(
-        "aircraft {aircraft:?} cannot fly to vertiport {to:?}: the flight needs {needs}, and a full battery has {battery}",
-        needs = needed(*energy_mwh, *reserve_mwh),
-        battery = kwh(*battery_mwh)
-    )]
+    #[error("aircraft {aircraft:?} cannot fly to vertiport {to:?}: {shortfall}")]
     OutOfRange {
         /// The aircraft that decides.
         aircraft: String,
         /// The vertiport that was chosen.
         to: String,
-        /// Energy of the flight, mWh.
-        energy_mwh: u64,
-        /// Energy that the flight leaves in the battery, mWh.
-        reserve_mwh: u64,
-        /// What a full battery has, mWh.
-        battery_mwh: u64,
+        /// What the flight needs, and what there is. Boxed, so that results stay small.
+        shortfall: Box<Shortfall>,
     },
     /// The scenario has corridors, and none of them leads to the destination.
     #[error("aircraft {aircraft:?} cannot fly to vertiport {to:?}: no corridor leads there")]
@@ -72,11 +66,24 @@ pub enum Refusal {
     },
 }
 
-/// What a battery needs for a flight and its reserve, if it has one.
-fn needed(energy_mwh: u64, reserve_mwh: u64) -> String {
-    match reserve_mwh {
-        0 => kwh(energy_mwh),
-        _ => format!("{} and a reserve of {}", kwh(energy_mwh), kwh(reserve_mwh)),
+/// A flight that needs more than a full battery has, in milliwatt-hours.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Shortfall {
+    /// Energy of the flight.
+    pub energy_mwh: u64,
+    /// Energy that the flight leaves in the battery.
+    pub reserve_mwh: u64,
+    /// What a full battery has.
+    pub battery_mwh: u64,
+}
+
+impl fmt::Display for Shortfall {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "the flight needs {}", kwh(self.energy_mwh))?;
+        if self.reserve_mwh > 0 {
+            write!(f, " and a reserve of {}", kwh(self.reserve_mwh))?;
+        }
+        write!(f, ", and a full battery has {}", kwh(self.battery_mwh))
     }
 }
 
@@ -86,11 +93,20 @@ fn kwh(mwh: u64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::needed;
+    use super::Shortfall;
 
     #[test]
     fn a_reserve_is_named_where_there_is_one() {
-        assert_eq!(needed(38_000_000, 0), "38.0 kWh");
-        assert_eq!(needed(38_000_000, 10_000_000), "38.0 kWh and a reserve of 10.0 kWh");
+        let mut flight =
+            Shortfall { energy_mwh: 48_000_000, reserve_mwh: 0, battery_mwh: 45_000_000 };
+        assert_eq!(
+            flight.to_string(),
+            "the flight needs 48.0 kWh, and a full battery has 45.0 kWh"
+        );
+        (flight.energy_mwh, flight.reserve_mwh) = (38_000_000, 10_000_000);
+        assert_eq!(
+            flight.to_string(),
+            "the flight needs 38.0 kWh and a reserve of 10.0 kWh, and a full battery has 45.0 kWh"
+        );
     }
 }

@@ -52,7 +52,7 @@ mod view;
 pub use boarded::Boarded;
 pub use day_totals::{DayNumber, DayTotals};
 pub use departures::Departures;
-pub use error::Refusal;
+pub use error::{Refusal, Shortfall};
 pub use imagined::Imagined;
 pub use ledger::Ledger;
 pub use legs::{Leg, Legs};

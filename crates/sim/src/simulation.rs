@@ -13,7 +13,7 @@ use crate::outages::Outages;
 use crate::queue::ReadyQueue;
 use crate::room::clone_into_room;
 use crate::stands::Stands;
-use crate::{DayTotals, Ledger, Legs, Refusal, TraceRow, VertiportSet, View};
+use crate::{DayTotals, Ledger, Legs, Refusal, Shortfall, TraceRow, VertiportSet, View};
 
 /// An aircraft that is ready for take-off and needs a vertiport to fly to. Its own vertiport means
 /// *hold*.
@@ -245,13 +245,12 @@ impl Simulation {
         } else if !self.legs.within_range(decides.kind, decision.at).contains(choice) {
             let kind = &self.scenario.aircraft_types[decides.kind.at()];
             let leg = self.legs.leg(decides.kind, decision.at, choice);
-            Refusal::OutOfRange {
-                aircraft,
-                to,
+            let shortfall = Shortfall {
                 energy_mwh: whole_mwh(leg.energy_kwh),
                 reserve_mwh: whole_mwh(kind.reserve_kwh),
                 battery_mwh: whole_mwh(kind.battery_kwh),
-            }
+            };
+            Refusal::OutOfRange { aircraft, to, shortfall: Box::new(shortfall) }
         } else if self.closures.from(decision.at).contains(choice) {
             Refusal::Closed { aircraft, to }
         } else if !self.stands.open().contains(choice) {

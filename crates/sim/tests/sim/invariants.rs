@@ -90,7 +90,7 @@ proptest! {
             let is_warned_about = warnings.iter().any(|warning| {
                 matches!(warning, Warning::ChargedTooLate { aircraft, .. } if *aircraft == own.id)
             });
-            prop_assert_eq!(is_warned_about, is_late && reached.len() > 0, "{:?}", own);
+            prop_assert_eq!(is_warned_about, is_late && !reached.is_empty(), "{:?}", own);
             let mut flights = rows.iter().filter(|row| row.aircraft == aircraft && row.to != row.from);
             prop_assert!(!is_late || flights.next().is_none());
         }
