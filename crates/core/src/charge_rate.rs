@@ -8,6 +8,8 @@
 
 use crate::{AircraftType, CurvePoint, Vertiport};
 
+/// More than the errors of computed seconds of charging, of which there are at most 18 million.
+const ROUNDING_S: f64 = 1e-3;
 /// Milliwatt-hours a second that one kilowatt charges.
 const MWH_A_SECOND: f64 = 1e6 / 3600.0;
 
@@ -19,6 +21,24 @@ const MWH_A_SECOND: f64 = 1e6 / 3600.0;
 )]
 pub fn whole_mwh(kwh: f64) -> u64 {
     (1e6 * kwh).round() as u64
+}
+
+/// A battery that begins to charge at a vertiport.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Battery {
+    /// What it holds, mWh.
+    pub mwh: u64,
+    /// The seconds in which an empty battery would charge as much there. Kept, because logarithms
+    /// would take most of the time of a simulation.
+    filled_s: f64,
+}
+
+/// A charge that a battery at a vertiport should reach.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Need {
+    mwh: u64,
+    /// The seconds in which an empty battery would reach it.
+    filled_s: f64,
 }
 
 /// How fast the batteries of one aircraft type charge at one vertiport.
@@ -104,6 +124,19 @@ impl ChargeRate {
         self.segments[later.saturating_sub(1)].seconds_to(mwh)
     }
 
+    /// A battery that begins to charge here.
+    #[inline]
+    pub fn battery(&self, mwh: u64) -> Battery {
+        Battery { mwh, filled_s: self.seconds_to(mwh as f64) }
+    }
+
+    /// A charge to reach, at most that of a full battery.
+    pub fn need(&self, mwh: u64) -> Need {
+        let mwh = mwh.min(self.full_mwh);
+        // Charges are rounded to the nearest, so half a milliwatt-hour less is enough.
+        Need { mwh, filled_s: self.seconds_to(mwh as f64 - 0.5) }
+    }
+
     /// Seconds of charging from one charge to another that is not lower, kWh.
     pub fn seconds_between(&self, from_kwh: f64, to_kwh: f64) -> f64 {
         self.seconds_to(1e6 * to_kwh) - self.seconds_to(1e6 * from_kwh)
@@ -125,10 +158,19 @@ impl ChargeRate {
         most.fold(0.0, f64::max).ceil() as u64 + 1
     }
 
-    /// Seconds from a charge to a full battery.
+    /// Seconds until a battery that has charged for some seconds is full.
     #[inline]
-    pub fn to_full_s(&self, from_mwh: u64) -> f64 {
-        if from_mwh >= self.full_mwh { 0.0 } else { self.full_s - self.seconds_to(from_mwh as f64) }
+    pub fn to_full_s(&self, from: Battery, seconds: u32) -> f64 {
+        if from.mwh >= self.full_mwh {
+            return 0.0;
+        }
+        (self.full_s - (from.filled_s + f64::from(seconds))).max(0.0)
+    }
+
+    /// Seconds in which an empty battery is full.
+    #[inline]
+    pub fn full_s(&self) -> f64 {
+        self.full_s
     }
 
     /// The charge from which a full battery is some seconds away, mWh.
@@ -150,36 +192,44 @@ impl ChargeRate {
         clippy::cast_sign_loss,
         reason = "at most the capacity, which is whole and below 2^53 mWh"
     )]
-    pub fn charged_mwh(&self, from_mwh: u64, seconds: u32) -> u64 {
-        if seconds == 0 || from_mwh >= self.full_mwh {
-            return from_mwh;
+    #[inline]
+    pub fn charged_mwh(&self, from: Battery, seconds: u32) -> u64 {
+        if seconds == 0 || from.mwh >= self.full_mwh {
+            return from.mwh;
         }
-        let at_s = self.seconds_to(from_mwh as f64) + f64::from(seconds);
+        let at_s = from.filled_s + f64::from(seconds);
         if at_s >= self.full_s {
             return self.full_mwh;
         }
         let later = self.segments.partition_point(|segment| segment.from_s <= at_s);
         let mwh = self.segments[later.saturating_sub(1)].mwh_at(at_s).round() as u64;
-        mwh.clamp(from_mwh, self.full_mwh)
+        mwh.clamp(from.mwh, self.full_mwh)
     }
 
-    /// The fewest whole seconds after which a battery has a charge, which a full one has.
+    /// The fewest whole seconds after which a battery has the charge that it needs.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "never negative, and a full charge takes at most 5,000 hours"
     )]
-    pub fn needed_s(&self, from_mwh: u64, mwh: u64) -> u32 {
-        if mwh <= from_mwh {
+    #[inline]
+    pub fn needed_s(&self, from: Battery, need: Need) -> u32 {
+        if need.mwh <= from.mwh {
             return 0;
         }
-        // Charges are rounded to the nearest, so half a milliwatt-hour less is enough.
-        let exact_s = self.seconds_to(mwh as f64 - 0.5) - self.seconds_to(from_mwh as f64);
-        let mut seconds = exact_s.ceil().max(0.0) as u32;
-        while self.charged_mwh(from_mwh, seconds) < mwh {
+        let exact_s = (need.filled_s - from.filled_s).max(0.0);
+        let seconds = exact_s.ceil();
+        let off_s = (exact_s - exact_s.round()).abs();
+        if off_s > ROUNDING_S { seconds as u32 } else { self.searched_s(from, need, seconds as u32) }
+    }
+
+    /// The same where rounding may matter, from a number of seconds that is about right.
+    #[cold]
+    fn searched_s(&self, from: Battery, need: Need, mut seconds: u32) -> u32 {
+        while self.charged_mwh(from, seconds) < need.mwh {
             seconds += 1;
         }
-        while seconds > 0 && self.charged_mwh(from_mwh, seconds - 1) >= mwh {
+        while seconds > 0 && self.charged_mwh(from, seconds - 1) >= need.mwh {
             seconds -= 1;
         }
         seconds
@@ -243,20 +293,20 @@ mod tests {
     #[test]
     fn constant_power_charges_energy_by_time() {
         let rate = ChargeRate::of(&kind(110.0, 150.0, &[]), &vertiport(Some(100.0)));
-        assert_eq!(rate.charged_mwh(0, 36), whole_mwh(1.0));
-        assert_eq!(rate.needed_s(0, whole_mwh(1.0)), 36);
-        assert_eq!(rate.needed_s(0, whole_mwh(1.0) + 1), 37);
-        assert_eq!(rate.charged_mwh(whole_mwh(109.5), 3600), whole_mwh(110.0));
+        assert_eq!(rate.charged_mwh(rate.battery(0), 36), whole_mwh(1.0));
+        assert_eq!(rate.needed_s(rate.battery(0), rate.need(whole_mwh(1.0))), 36);
+        assert_eq!(rate.needed_s(rate.battery(0), rate.need(whole_mwh(1.0) + 1)), 37);
+        assert_eq!(rate.charged_mwh(rate.battery(whole_mwh(109.5)), 3600), whole_mwh(110.0));
     }
 
     #[test]
     fn a_curve_may_begin_at_its_limit() {
         let taper = [(0.0, 150.0), (0.8, 150.0), (1.0, 50.0)];
         let rate = ChargeRate::of(&kind(100.0, 150.0, &taper), &vertiport(None));
-        assert_eq!(rate.charged_mwh(0, 1_920), whole_mwh(80.0));
+        assert_eq!(rate.charged_mwh(rate.battery(0), 1_920), whole_mwh(80.0));
         // The last 20 kWh take 20 / 100 ln 3 hours.
-        assert_eq!(rate.needed_s(whole_mwh(80.0), whole_mwh(100.0)), 792);
-        assert_eq!(rate.to_full_s(0).round(), 2_711.0);
+        assert_eq!(rate.needed_s(rate.battery(whole_mwh(80.0)), rate.need(whole_mwh(100.0))), 792);
+        assert_eq!(rate.full_s().round(), 2_711.0);
     }
 
     proptest! {
@@ -280,7 +330,7 @@ mod tests {
                 let half = (kwh + power(kwh / 100.0) * 0.005 / 3600.0).min(100.0);
                 kwh = (kwh + power(half / 100.0) * 0.01 / 3600.0).min(100.0);
             }
-            let charged = rate.charged_mwh(whole_mwh(100.0 * start), seconds) as f64 / 1e6;
+            let charged = rate.charged_mwh(rate.battery(whole_mwh(100.0 * start)), seconds) as f64 / 1e6;
             prop_assert!((charged - kwh).abs() < 1e-3, "{charged} {kwh}");
         }
 
@@ -291,14 +341,15 @@ mod tests {
         ) {
             let curve = [(0.0, kw[0]), (middle, kw[1]), (1.0, kw[2])];
             let rate = ChargeRate::of(&kind(100.0, 300.0, &curve), &vertiport(None));
-            let seconds = rate.needed_s(from, to);
-            prop_assert!(rate.charged_mwh(from, seconds) >= to.min(100_000_000));
+            let battery = rate.battery(from);
+            let seconds = rate.needed_s(battery, rate.need(to));
+            prop_assert!(rate.charged_mwh(battery, seconds) >= to);
             if seconds > 0 {
-                prop_assert!(rate.charged_mwh(from, seconds - 1) < to);
+                prop_assert!(rate.charged_mwh(battery, seconds - 1) < to);
             } else {
                 prop_assert!(from >= to);
             }
-            prop_assert_eq!(rate.charged_mwh(from, 0), from);
+            prop_assert_eq!(rate.charged_mwh(battery, 0), from);
         }
     }
 }

@@ -54,7 +54,7 @@ mod warning;
 mod world;
 
 pub use change::{Difference, split_path};
-pub use charge_rate::{ChargeRate, whole_mwh};
+pub use charge_rate::{Battery, ChargeRate, Need, whole_mwh};
 pub use charging::{ChargeCurve, Charging, CurvePoint};
 pub use code::{Code, Coded, Exit};
 pub use disturbances::{

@@ -253,9 +253,10 @@ impl Scenario {
         };
         let rate = ChargeRate::of(kind, place);
         let start_mwh = whole_mwh(self.start_charge_kwh(aircraft));
+        let battery = rate.battery(start_mwh);
         let (leaves_with_mwh, charged_s) = match self.operations.charging {
-            Charging::ToFull => (rate.full_mwh(), nearest_second(rate.to_full_s(start_mwh))),
-            Charging::AsNeeded => (least_mwh, rate.needed_s(start_mwh, least_mwh)),
+            Charging::ToFull => (rate.full_mwh(), nearest_second(rate.to_full_s(battery, 0))),
+            Charging::AsNeeded => (least_mwh, rate.needed_s(battery, rate.need(least_mwh))),
         };
         let charged_at = self.operations.start + charged_s;
         let end = self.operations.end;

@@ -10,6 +10,7 @@
 //! crate.
 
 mod backward_pass;
+mod bands;
 mod base_rule;
 mod charged_flights;
 mod choices;
@@ -189,7 +190,8 @@ impl DayPrices {
         if !view.charges_as_needed() {
             return self.worth_usd(kind, at, ready);
         }
-        let ready = self.relaxation.nearest(view, (kind, at), ready, view.charge_mwh(aircraft));
+        let (levels, _) = self.relaxation.charging();
+        let ready = levels.nearest((kind, at), ready.seconds(), view.to_full_s(aircraft, ready));
         let ready = ready.no_sooner_than(self.made_at.seconds());
         self.relaxation.kept_values().worth_at_level_usd(kind, at, ready)
     }
@@ -243,10 +245,6 @@ impl DayPrices {
     /// Makes [`best_with`](Self::best_with) fast for decisions up to `ahead_s` after each decision
     /// until the prices are recomputed. `view` is of the day of the prices.
     pub(crate) fn rank(&self, view: View<'_>, ahead_s: u32) {
-        // The bounds of ranks hold for full batteries.
-        if view.charges_as_needed() {
-            return;
-        }
         self.ranks.get_or_init(|| {
             let until = self.made_at + RENEWAL_S + ahead_s;
             self.relaxation.ranks(view, (self.made_at, until))
@@ -265,8 +263,10 @@ impl DayPrices {
     ) -> VertiportIx {
         let &Decision { time, at, aircraft, .. } = decision;
         let ranks = self.ranks.get().filter(|_| self.base_rule != BaseRule::Greedy);
-        if let Some(ranked) = ranks.and_then(|ranks| ranks.from(view.kind(aircraft), at, time)) {
-            let (choices, feasible) = (self.choices(view, decision), view.feasible(decision));
+        let choices = self.choices(view, decision);
+        let from = (view.kind(aircraft), at);
+        if let Some(ranked) = ranks.and_then(|ranks| ranks.from(from, time, choices.band())) {
+            let feasible = view.feasible(decision);
             let open = |to| feasible.contains(to) && self.base_rule.allows(&choices, to);
             return ranked.best(&choices, at, open, most_added_usd, added_usd);
         }

@@ -3,68 +3,85 @@
 //! The charge at landing and the time of landing determine the charge at every later time until
 //! take-off, so that no event is needed while an aircraft charges or holds.
 
-use vertifleet_core::{AircraftIx, Charging, Scenario, Time, VertiportIx, whole_mwh};
+use vertifleet_core::{AircraftIx, Battery, Charging, Scenario, Time, VertiportIx, whole_mwh};
 
 use crate::room::clone_into_room;
-use crate::{Decision, Leg, Simulation, VertiportSet};
+use crate::{Decision, Landed, Legs, Simulation, VertiportSet};
 
-/// The charge of each aircraft at its latest landing, decided or done.
+/// The battery of each aircraft at its latest landing, decided or done.
 #[derive(Debug, Default)]
 pub(crate) struct Batteries {
-    /// Milliwatt-hours by aircraft; empty on days that charge to full.
-    landed_mwh: Vec<u64>,
+    /// By aircraft; empty on days that charge to full.
+    landed: Vec<Battery>,
 }
 
-clone_into_room!(Batteries { landed_mwh });
+clone_into_room!(Batteries { landed });
 
 impl Batteries {
     /// The batteries when operations start.
-    pub(crate) fn at_start(scenario: &Scenario) -> Self {
+    pub(crate) fn at_start(scenario: &Scenario, legs: &Legs) -> Self {
         if scenario.operations.charging == Charging::ToFull {
-            return Self { landed_mwh: Vec::new() };
+            return Self { landed: Vec::new() };
         }
-        let fleet = scenario.aircraft.iter();
-        let charges = fleet.map(|aircraft| whole_mwh(scenario.start_charge_kwh(aircraft)));
-        Self { landed_mwh: charges.collect() }
+        let landed = scenario.aircraft.iter().map(|aircraft| {
+            let rate = legs.rate(aircraft.kind, aircraft.at);
+            rate.battery(whole_mwh(scenario.start_charge_kwh(aircraft)))
+        });
+        Self { landed: landed.collect() }
     }
 
     /// Whether the day charges to full, so that no charge is kept.
     #[inline]
     pub(crate) fn are_always_full(&self) -> bool {
-        self.landed_mwh.is_empty()
+        self.landed.is_empty()
     }
 
-    /// The charge at the latest landing, mWh.
-    pub(crate) fn landed_mwh(&self, aircraft: AircraftIx) -> u64 {
-        self.landed_mwh[aircraft.at()]
+    /// The battery at the latest landing.
+    #[inline]
+    pub(crate) fn landed(&self, aircraft: AircraftIx) -> Battery {
+        self.landed[aircraft.at()]
     }
 
-    /// The charge at the latest landing, mWh; 0 on days that charge to full.
-    pub(crate) fn kept_mwh(&self, aircraft: AircraftIx) -> u64 {
-        self.landed_mwh.get(aircraft.at()).copied().unwrap_or(0)
+    /// The battery at the latest landing; an empty one on days that charge to full.
+    pub(crate) fn kept(&self, aircraft: AircraftIx) -> Battery {
+        self.landed.get(aircraft.at()).copied().unwrap_or_default()
     }
 
-    /// Takes a charge of [`kept_mwh`](Self::kept_mwh) back.
-    pub(crate) fn restore(&mut self, aircraft: AircraftIx, mwh: u64) {
-        if let Some(landed_mwh) = self.landed_mwh.get_mut(aircraft.at()) {
-            *landed_mwh = mwh;
+    /// Takes what was [kept](Self::kept) back.
+    pub(crate) fn restore(&mut self, aircraft: AircraftIx, battery: Battery) {
+        if let Some(landed) = self.landed.get_mut(aircraft.at()) {
+            *landed = battery;
         }
     }
 
-    /// Sets the charge at the latest landing, mWh.
-    pub(crate) fn land(&mut self, aircraft: AircraftIx, mwh: u64) {
-        self.landed_mwh[aircraft.at()] = mwh;
+    /// Sets the battery at the latest landing.
+    pub(crate) fn land(&mut self, aircraft: AircraftIx, battery: Battery) {
+        self.landed[aircraft.at()] = battery;
     }
 }
 
 /// Most of these functions are for days that charge as needed.
 impl Simulation {
+    /// The latest landing of an aircraft.
+    #[inline]
+    pub(crate) fn landed(&self, aircraft: AircraftIx) -> Landed {
+        let arrival = self.arrival[aircraft.at()];
+        Landed { arrival, battery: self.batteries.landed(aircraft) }
+    }
+
     /// The charge of an aircraft at a time from its latest landing until it takes off, mWh.
     pub(crate) fn charge_mwh(&self, aircraft: AircraftIx, time: Time) -> u64 {
         let kind = self.scenario.aircraft[aircraft.at()].kind;
+        self.legs.charge_mwh(kind, self.place[aircraft.at()], self.landed(aircraft), time)
+    }
+
+    /// The seconds after a time until an aircraft that stays is full.
+    #[inline]
+    pub(crate) fn to_full_s(&self, aircraft: AircraftIx, time: Time) -> f64 {
+        let kind = self.scenario.aircraft[aircraft.at()].kind;
+        let Landed { arrival, battery } = self.landed(aircraft);
         let rate = self.legs.rate(kind, self.place[aircraft.at()]);
-        let charged_s = time.since(self.arrival[aircraft.at()]);
-        rate.charged_mwh(self.batteries.landed_mwh(aircraft), charged_s)
+        rate.to_full_s(battery, time.since(arrival))
     }
 
     /// The charge of an aircraft at its next decision, kWh; `None` on days that charge to full.
@@ -77,24 +94,13 @@ impl Simulation {
     pub(crate) fn takeoff(&self, decision: &Decision, to: VertiportIx) -> Time {
         let Decision { aircraft, at, time, .. } = *decision;
         let kind = self.scenario.aircraft[aircraft.at()].kind;
-        let rate = self.legs.rate(kind, at);
-        let energy_kwh = self.legs.leg(kind, at, to).energy_kwh;
-        let needed_mwh = self.scenario.aircraft_types[kind.at()].needed_mwh(energy_kwh);
-        let needed_mwh = needed_mwh.min(rate.full_mwh());
-        let landed_mwh = self.batteries.landed_mwh(aircraft);
-        time.max(self.arrival[aircraft.at()] + rate.needed_s(landed_mwh, needed_mwh))
+        self.legs.takeoff(kind, (at, to), self.landed(aircraft), time)
     }
 
     /// Of some vertiports, those for which the charge suffices by the end of operations.
-    #[cold]
+    #[inline]
     pub(crate) fn charged_in_time(&self, decision: &Decision, of: VertiportSet) -> VertiportSet {
-        let end = self.scenario.operations.end;
-        let is_full = |by| {
-            let kind = self.scenario.aircraft[decision.aircraft.at()].kind;
-            let full_mwh = self.legs.rate(kind, decision.at).full_mwh();
-            self.charge_mwh(decision.aircraft, by) >= full_mwh
-        };
-        if is_full(end) {
+        if self.to_full_s(decision.aircraft, self.scenario.operations.end) <= 0.0 {
             return of;
         }
         of.iter().filter(|&to| self.takes_off_in_time(decision, to)).collect()
@@ -109,10 +115,13 @@ impl Simulation {
 
     /// Enters the charge with which a flight lands at a time.
     #[cold]
-    pub(crate) fn discharge(&mut self, aircraft: AircraftIx, arrival: Time, leg: &Leg) {
-        let left = Time::from_seconds(arrival.seconds() - leg.flight_s);
-        let mwh = self.lands_with_mwh(aircraft, left, leg.energy_kwh);
-        self.batteries.land(aircraft, mwh);
+    pub(crate) fn discharge(&mut self, decision: &Decision, to: VertiportIx, arrival: Time) {
+        let Decision { aircraft, at, .. } = *decision;
+        let kind = self.scenario.aircraft[aircraft.at()].kind;
+        let flight_s = self.legs.leg(kind, at, to).flight_s;
+        let left = Time::from_seconds(arrival.seconds() - flight_s);
+        let battery = self.legs.lands_with(kind, (at, to), self.landed(aircraft), left);
+        self.batteries.land(aircraft, battery);
     }
 
     /// Whether the charge suffices for a flight by the end of operations.
@@ -132,16 +141,5 @@ impl Simulation {
             self.stands.hold(aircraft, at);
         }
         charge_mwh as f64 / 1e6
-    }
-
-    /// The charge that an aircraft lands with after it takes off at a time, mWh. A flight that a
-    /// report forces may take more than there is.
-    pub(crate) fn lands_with_mwh(
-        &self,
-        aircraft: AircraftIx,
-        takeoff: Time,
-        energy_kwh: f64,
-    ) -> u64 {
-        self.charge_mwh(aircraft, takeoff).saturating_sub(whole_mwh(energy_kwh))
     }
 }

@@ -2,7 +2,8 @@
 //! once a day.
 
 use vertifleet_core::{
-    AircraftType, ChargeRate, Charging, Operations, Scenario, TypeIx, Vertiport, VertiportIx,
+    AircraftType, ChargeRate, Charging, Need, Operations, Scenario, TypeIx, Vertiport,
+    VertiportIx, whole_mwh,
 };
 
 use crate::VertiportSet;
@@ -76,6 +77,15 @@ fn nearest_second(seconds: f64) -> u32 {
     seconds.round().min(1e9) as u32
 }
 
+/// What a leg takes from a battery, on days that charge as needed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LegCharge {
+    /// Milliwatt-hours.
+    pub(crate) energy_mwh: u64,
+    /// What the battery holds at take-off at least.
+    pub(crate) need: Need,
+}
+
 /// The legs of every aircraft type between every pair of vertiports.
 #[derive(Debug, Clone)]
 pub struct Legs {
@@ -87,6 +97,8 @@ pub struct Legs {
     within_range: Vec<VertiportSet>,
     /// By type, then vertiport, on days that charge as needed; empty on others.
     rates: Vec<ChargeRate>,
+    /// By type, from, then to, on days that charge as needed; empty on others.
+    charges: Vec<LegCharge>,
 }
 
 impl Legs {
@@ -110,7 +122,9 @@ impl Legs {
                 );
             }
         }
-        Self { vertiports, by_pair: legs, within_range, rates: rates(scenario) }
+        let rates = rates(scenario);
+        let charges = charges(scenario, &legs, &rates);
+        Self { vertiports, by_pair: legs, within_range, rates, charges }
     }
 
     /// The leg of one type between two vertiports.
@@ -135,6 +149,16 @@ impl Legs {
         &self.rates[kind.at() * self.vertiports + at.at()]
     }
 
+    /// What a leg takes from a battery, on days that charge as needed.
+    #[inline]
+    pub(crate) fn charge_of(
+        &self,
+        kind: TypeIx,
+        (from, to): (VertiportIx, VertiportIx),
+    ) -> &LegCharge {
+        &self.charges[(kind.at() * self.vertiports + from.at()) * self.vertiports + to.at()]
+    }
+
     /// Whether aircraft decide before they are full.
     #[inline]
     pub fn charge_as_needed(&self) -> bool {
@@ -155,4 +179,18 @@ fn rates(scenario: &Scenario) -> Vec<ChargeRate> {
     }
     let at_all = |kind| scenario.vertiports.iter().map(move |at| ChargeRate::of(kind, at));
     scenario.aircraft_types.iter().flat_map(at_all).collect()
+}
+
+/// What each leg takes from a battery; nothing without rates.
+fn charges(scenario: &Scenario, legs: &[Leg], rates: &[ChargeRate]) -> Vec<LegCharge> {
+    let vertiports = scenario.vertiports.len();
+    let mut charges = Vec::new();
+    for (legs, (row, rate)) in legs.chunks(vertiports).zip(rates.iter().enumerate()) {
+        let kind = &scenario.aircraft_types[row / vertiports];
+        charges.extend(legs.iter().map(|leg| LegCharge {
+            energy_mwh: whole_mwh(leg.energy_kwh),
+            need: rate.need(kind.needed_mwh(leg.energy_kwh)),
+        }));
+    }
+    charges
 }

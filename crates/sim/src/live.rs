@@ -14,9 +14,9 @@ mod take;
 
 use std::sync::Arc;
 
-use vertifleet_core::{AircraftIx, Closure, Route, Scenario, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Battery, Closure, Route, Scenario, Time, VertiportIx};
 
-use crate::{DayTotals, Decision, Imagined, Simulation, Trace, TraceRow, View};
+use crate::{DayTotals, Decision, Imagined, Landed, Simulation, Trace, TraceRow, View};
 
 pub use remaining_day::RemainingDay;
 pub use report::{Booking, Notice, Report, ReportError, Routes};
@@ -119,9 +119,16 @@ impl LiveDecision {
 struct Before {
     charged: Time,
     arrival: Time,
-    /// Milliwatt-hours; 0 on days that charge to full.
-    landed_mwh: u64,
+    /// An empty one on days that charge to full.
+    battery: Battery,
     waited: bool,
+}
+
+impl Before {
+    /// Its landing.
+    fn landed(&self) -> Landed {
+        Landed { arrival: self.arrival, battery: self.battery }
+    }
 }
 
 /// The known state of an aircraft.

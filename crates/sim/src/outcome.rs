@@ -33,8 +33,8 @@ impl Outcome {
         let takeoff = if keeps_charge { day.takeoff(decision, to) } else { time };
         let arrival = takeoff + leg.flight_s;
         let charge_mwh = if keeps_charge {
-            let landed_mwh = day.lands_with_mwh(aircraft, takeoff, leg.energy_kwh);
-            day.legs().rate(kind, to).charged_mwh(landed_mwh, leg.ground_s)
+            let landed = day.legs().lands_with(kind, (at, to), day.landed(aircraft), takeoff);
+            day.legs().rate(kind, to).charged_mwh(landed, leg.ground_s)
         } else {
             0
         };

@@ -116,14 +116,15 @@ clone_into_room!(Simulation {
 impl Simulation {
     /// The day before its first decision.
     pub fn new(scenario: Arc<Scenario>) -> Self {
+        let legs = Arc::new(Legs::of(&scenario));
         Self {
-            legs: Arc::new(Legs::of(&scenario)),
             stands: Stands::at_start(&scenario),
             demand: Demand::of(&scenario),
             queue: first_decisions(&scenario),
             place: scenario.aircraft.iter().map(|aircraft| aircraft.at).collect(),
             arrival: vec![scenario.operations.start; scenario.aircraft.len()],
-            batteries: Batteries::at_start(&scenario),
+            batteries: Batteries::at_start(&scenario, &legs),
+            legs,
             ledger: Ledger::at_start(&scenario),
             closures: Closures::of(&scenario),
             outages: Outages::of(&scenario),
@@ -332,7 +333,7 @@ impl Simulation {
             ready,
         };
         if !self.batteries.are_always_full() {
-            self.discharge(aircraft, arrival, &leg);
+            self.discharge(decision, to, arrival);
         }
         self.stands.transfer(aircraft, from, to);
         self.place[aircraft.at()] = to;

@@ -113,9 +113,15 @@ impl<'a> View<'a> {
     }
 
     /// What the battery of the deciding aircraft holds, mWh. For days that charge as needed.
-    #[inline]
     pub fn charge_mwh_at(&self, decision: &Decision) -> u64 {
         self.simulation.charge_mwh(decision.aircraft, decision.time)
+    }
+
+    /// The seconds from a time, at which an aircraft is on the ground, until it is full. For days
+    /// that charge as needed.
+    #[inline]
+    pub fn to_full_s(&self, aircraft: AircraftIx, time: Time) -> f64 {
+        self.simulation.to_full_s(aircraft, time)
     }
 
     /// How fast a type charges at a vertiport. For days that charge as needed.

@@ -88,10 +88,11 @@ impl<'a> ChargeLevels<'a> {
         let charge_mwh = self.charge_mwh[kind.at() * self.count + usize::from(level)];
         let energy_mwh = whole_mwh(leg.energy_kwh);
         let needed_mwh = self.scenario.aircraft_types[kind.at()].needed_mwh(leg.energy_kwh);
-        let wait_s = here.needed_s(charge_mwh, needed_mwh);
+        let wait_s = here.needed_s(here.battery(charge_mwh), here.need(needed_mwh));
         let takeoff_mwh = charge_mwh.max(needed_mwh + self.second_mwh[kind.at()]);
-        let left_mwh = here.charged_mwh(takeoff_mwh.min(here.full_mwh()), late_s) + ROUNDING_MWH;
-        let ready_mwh = there.charged_mwh(left_mwh - energy_mwh, leg.ground_s);
+        let takeoff = here.battery(takeoff_mwh.min(here.full_mwh()));
+        let left_mwh = here.charged_mwh(takeoff, late_s) + ROUNDING_MWH;
+        let ready_mwh = there.charged_mwh(there.battery(left_mwh - energy_mwh), leg.ground_s);
         Charged { wait_s, level: self.up(kind, ready_mwh) }
     }
 
@@ -99,7 +100,8 @@ impl<'a> ChargeLevels<'a> {
     pub(super) fn hold(&self, kind: TypeIx, at: VertiportIx, level: Level) -> Level {
         let charge_mwh = self.charge_mwh[kind.at() * self.count + usize::from(level)];
         let hold_s = self.scenario.operations.hold_s;
-        let held_mwh = self.legs.rate(kind, at).charged_mwh(charge_mwh, hold_s);
+        let rate = self.legs.rate(kind, at);
+        let held_mwh = rate.charged_mwh(rate.battery(charge_mwh), hold_s);
         self.up(kind, held_mwh + ROUNDING_MWH)
     }
 }

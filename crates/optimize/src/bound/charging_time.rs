@@ -9,7 +9,7 @@
 //! flights and are given it for the seconds that they have. Any price from 0 on proves a bound
 //! (docs/src/concepts/bound.md has the proof).
 
-use vertifleet_core::{ChargeCurve, Scenario, TypeIx, VertiportIx};
+use vertifleet_core::{Battery, ChargeCurve, Scenario, TypeIx, VertiportIx};
 use vertifleet_sim::{Leg, Legs};
 
 /// The most that a second of charging may cost, micro-dollars. It keeps the sums of
@@ -56,7 +56,7 @@ impl<'a> ChargingTime<'a> {
         let rate = self.legs.rate(kind, from);
         let energy_kwh = self.legs.leg(kind, from, to).energy_kwh;
         let needed_mwh = self.scenario.aircraft_types[kind.at()].needed_mwh(energy_kwh);
-        rate.needed_s(0, needed_mwh.min(rate.full_mwh()))
+        rate.needed_s(Battery::default(), rate.need(needed_mwh))
     }
 
     /// What a flight pays at least that takes off no later than a second, micro-dollars: for its

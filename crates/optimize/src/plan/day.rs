@@ -1,12 +1,12 @@
 //! The duration, energy and profit of every flight of a day, in the form that the search reads
 //! fastest.
 
-use vertifleet_core::{AircraftIx, Scenario, TypeIx, VertiportIx};
-use vertifleet_sim::View;
+use vertifleet_core::{AircraftIx, Scenario, Time, TypeIx, VertiportIx};
+use vertifleet_sim::{Landed, View};
 
 use super::batteries::Batteries;
 use super::foresight::Foresight;
-use super::hop::{Hop, Landed, Landing};
+use super::hop::{Hop, Landing};
 
 /// The numbers of a day, by aircraft type and vertiport.
 #[derive(Debug)]
@@ -144,8 +144,8 @@ impl Day {
     /// The aircraft at the start of the day, as if it had landed then.
     pub(super) fn start(&self, aircraft: AircraftIx) -> Landing {
         let batteries = self.batteries.as_ref();
-        let charge_mwh = batteries.map_or(0, |batteries| batteries.start_mwh(aircraft));
-        let landed = Landed { arrival_s: self.first_s, charge_mwh };
+        let battery = batteries.map(|batteries| batteries.start(aircraft)).unwrap_or_default();
+        let landed = Landed { arrival: Time::from_seconds(self.first_s), battery };
         Landing { ready_s: self.first_ready_s[aircraft.at()], landed }
     }
 
@@ -162,17 +162,19 @@ impl Day {
     ) -> Option<Landing> {
         let Some(batteries) = &self.batteries else {
             let (arrival_s, ready_s) = self.landing_s(aircraft, from, hop, (decided_s, decided_s));
-            return Some(Landing { ready_s, landed: Landed { arrival_s, charge_mwh: 0 } });
+            let landed = Landed { arrival: Time::from_seconds(arrival_s), ..Landed::default() };
+            return Some(Landing { ready_s, landed });
         };
-        let kind = self.kind(aircraft);
-        let takeoff_s = batteries.takeoff_s(kind, from, hop, landed, decided_s);
+        let (kind, pair, legs) = (self.kind(aircraft), (from, hop.to), &batteries.legs);
+        let takeoff_s = legs.takeoff(kind, pair, landed, Time::from_seconds(decided_s)).seconds();
         if takeoff_s > self.end_s {
             return None;
         }
         let (arrival_s, ready_s) = self.landing_s(aircraft, from, hop, (decided_s, takeoff_s));
-        let left_s = arrival_s - hop.flight_s;
-        let charge_mwh = batteries.lands_with_mwh(kind, from, hop, landed, left_s);
-        Some(Landing { ready_s, landed: Landed { arrival_s, charge_mwh } })
+        let left = Time::from_seconds(arrival_s - hop.flight_s);
+        let battery = legs.lands_with(kind, pair, landed, left);
+        let landed = Landed { arrival: Time::from_seconds(arrival_s), battery };
+        Some(Landing { ready_s, landed })
     }
 
     /// When a flight lands and its aircraft is ready again.

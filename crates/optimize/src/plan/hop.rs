@@ -1,6 +1,7 @@
 //! Flights between two vertiports as the planner reckons with them.
 
 use vertifleet_core::VertiportIx;
+use vertifleet_sim::Landed;
 
 /// A flight from a vertiport that aircraft of one type can make.
 #[derive(Debug, Clone, Copy)]
@@ -16,18 +17,10 @@ pub(super) struct Hop {
 }
 
 /// The end of a flight.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Landing {
     /// Second at which the aircraft decides again.
     pub(super) ready_s: u32,
     pub(super) landed: Landed,
 }
 
-/// When an aircraft landed, and with which charge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) struct Landed {
-    /// Second of the landing, or of the start of operations.
-    pub(super) arrival_s: u32,
-    /// Milliwatt-hours; 0 on days that charge to full.
-    pub(super) charge_mwh: u64,
-}

@@ -8,10 +8,11 @@
 //! feasible, except at vertiports with chargers and waiting stands (`chargers.rs`).
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
+use vertifleet_sim::Landed;
 
 use super::day::Day;
 use super::guiding_prices::GuidingPrices;
-use super::hop::{Hop, Landed, Landing};
+use super::hop::{Hop, Landing};
 use super::passengers::Departure;
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
@@ -246,8 +247,8 @@ impl ItinerarySearch {
         let mut at = slot * day.vertiports + place.at.at();
         if let Some(batteries) = &day.batteries {
             let (kind, landed) = (task.kind, place.landed);
-            let charge_mwh = batteries.charge_mwh(kind, place.at, landed, label.ready_s);
-            at = at * self.parts + batteries.part(kind, charge_mwh, self.parts);
+            let part = batteries.part(kind, place.at, landed, label.ready_s, self.parts);
+            at = at * self.parts + part;
         }
         if label.value_usd > self.labels[at].value_usd {
             self.labels[at] = label;
@@ -271,28 +272,42 @@ impl ItinerarySearch {
                     *current += 1;
                 }
             }
-            for cell in 0..day.vertiports * self.parts {
-                let at = first + cell;
-                let Label { value_usd, ready_s: time_s, .. } = self.labels[at];
-                if value_usd == f64::NEG_INFINITY {
-                    continue;
+            for place in VertiportIx::all(day.vertiports) {
+                let of_place = first + place.at() * self.parts;
+                let mut best_usd = f64::NEG_INFINITY;
+                // The labels with more charge come first: one that is worth no more than one of
+                // them leads nowhere better.
+                for at in (of_place..of_place + self.parts).rev() {
+                    let Label { value_usd, ready_s, .. } = self.labels[at];
+                    if value_usd > best_usd {
+                        best_usd = value_usd;
+                        self.settle_label(task, (at, place), ready_s, slot_period);
+                    }
                 }
-                self.decide(
-                    task,
-                    &Choice {
-                        label: u32::try_from(at).expect("a day has fewer than 2^32 labels"),
-                        place: VertiportIx::new(cell / self.parts),
-                        time_s,
-                        landed: self.landed.get(at).copied().unwrap_or_default(),
-                        moment: Moment::of(time_s, task.aircraft),
-                        value_usd,
-                        period: day.period_from(slot_period, time_s),
-                        minute: task.prices.minute(time_s),
-                    },
-                );
             }
             slot_s += self.slot_s();
         }
+    }
+
+    #[inline]
+    fn settle_label(
+        &mut self,
+        task: &Task<'_>,
+        (at, place): (usize, VertiportIx),
+        time_s: u32,
+        slot_period: usize,
+    ) {
+        let choice = Choice {
+            label: u32::try_from(at).expect("a day has fewer than 2^32 labels"),
+            place,
+            time_s,
+            landed: self.landed.get(at).copied().unwrap_or_default(),
+            moment: Moment::of(time_s, task.aircraft),
+            value_usd: self.labels[at].value_usd,
+            period: task.problem.day.period_from(slot_period, time_s),
+            minute: task.prices.minute(time_s),
+        };
+        self.decide(task, &choice);
     }
 
     #[inline]
@@ -372,7 +387,7 @@ impl ItinerarySearch {
         }
         let landing = day.landing(task.aircraft, choice.place, hop, choice.time_s, choice.landed);
         let Some(Landing { ready_s, landed }) = landing else { return };
-        let energy_usd = day.energy_cost_usd(hop, choice.period, landed.arrival_s);
+        let energy_usd = day.energy_cost_usd(hop, choice.period, landed.arrival.seconds());
         let place = Place { at: hop.to, window, has_stand: false, landed };
         self.reach(task, choice, place, ready_s, self.offers_usd[offer] - energy_usd);
     }

@@ -11,7 +11,7 @@ use super::problem::Problem;
 use super::stand_times::{Moment, StandTimes};
 
 /// One flight of an aircraft.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Flight {
     /// The second of its decision, at which the aircraft takes off unless it waits for charge.
     pub(super) take_off_s: u32,
@@ -205,7 +205,7 @@ impl Schedule {
         let cell = day.cell(period, flight.from, flight.to);
         let departure = Departure { cell, period, take_off_s: flight.take_off_s };
         let margin_usd = self.passengers.add(day, departure, sign * day.seats(aircraft));
-        let cost_usd = day.flying_cost_usd(hop, period, flight.landing.landed.arrival_s);
+        let cost_usd = day.flying_cost_usd(hop, period, flight.landing.landed.arrival.seconds());
         margin_usd - sign as f64 * cost_usd
     }
 

@@ -14,6 +14,8 @@ const PARTS: usize = 8;
 pub(super) struct ChargedFlight {
     /// Seconds to a full battery with which it may take off at the latest.
     pub(super) most_s: f32,
+    /// Parts of the table a second.
+    parts_a_second: f32,
     /// By the seconds at take-off, from 0 to `most_s`: the seconds left when the aircraft is ready.
     ready_s: [f32; PARTS + 1],
 }
@@ -23,10 +25,7 @@ impl ChargedFlight {
     #[inline]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the table")]
     pub(super) fn when_ready_s(&self, takeoff_s: f32) -> f32 {
-        if self.most_s <= 0.0 {
-            return self.ready_s[PARTS];
-        }
-        let place = (takeoff_s / self.most_s * PARTS as f32).clamp(0.0, PARTS as f32);
+        let place = (takeoff_s * self.parts_a_second).clamp(0.0, PARTS as f32);
         let part = (place as usize).min(PARTS - 1);
         let (low, high) = (self.ready_s[part], self.ready_s[part + 1]);
         low + (place - part as f32) * (high - low)
@@ -70,12 +69,14 @@ fn flight(view: View<'_>, kind: TypeIx, from: VertiportIx, to: VertiportIx) -> C
     let (here, there) = (view.charge_rate(kind, from), view.charge_rate(kind, to));
     let energy_mwh = whole_mwh(leg.energy_kwh);
     let needed_mwh = view.aircraft_type(kind).needed_mwh(leg.energy_kwh);
-    let most_s = here.to_full_s(needed_mwh.min(here.full_mwh()));
+    let most_s = here.to_full_s(here.battery(needed_mwh), 0);
     let mut ready_s = [0.0; PARTS + 1];
     for (part, ready_s) in ready_s.iter_mut().enumerate() {
         let charge_mwh = here.with_to_full_mwh(most_s * part as f64 / PARTS as f64);
-        let landed_mwh = charge_mwh.saturating_sub(energy_mwh);
-        *ready_s = there.to_full_s(there.charged_mwh(landed_mwh, leg.ground_s)) as f32;
+        let landed = there.battery(charge_mwh.saturating_sub(energy_mwh));
+        *ready_s = there.to_full_s(landed, leg.ground_s) as f32;
     }
-    ChargedFlight { most_s: most_s as f32, ready_s }
+    let most_s = most_s as f32;
+    let parts_a_second = if most_s > 0.0 { PARTS as f32 / most_s } else { 0.0 };
+    ChargedFlight { most_s, parts_a_second, ready_s }
 }

@@ -46,9 +46,9 @@ impl<'a> Charge<'a> {
     ) -> Self {
         let Decision { aircraft, at, time, .. } = *decision;
         let kind = view.kind(aircraft);
-        let to_full_s = view.charge_rate(kind, at).to_full_s(view.charge_mwh_at(decision));
+        let to_full_s = view.to_full_s(aircraft, time);
         let (hold_s, ready_s) = (f64::from(view.hold_s()), time.seconds() + view.hold_s());
-        let held = levels.nearest_to((kind, at), ready_s, (to_full_s - hold_s).max(0.0));
+        let held = levels.nearest((kind, at), ready_s, (to_full_s - hold_s).max(0.0));
         let held = held.no_sooner_than(time.seconds());
         let flights = flights.from(kind, at);
         Self { kind, to_full_s: to_full_s as f32, flights, held, levels }
@@ -61,8 +61,10 @@ impl<'a> Charge<'a> {
     clippy::cast_sign_loss,
     reason = "not negative, and a full charge takes at most 5,000 hours"
 )]
-fn wait_s(seconds: f32) -> u32 {
-    seconds.ceil().max(0.0) as u32
+pub(super) fn wait_s(seconds: f32) -> u32 {
+    // `as` cuts what is below 0, and the fraction.
+    let whole = seconds as u32;
+    whole + u32::from(seconds > whole as f32)
 }
 
 impl<'a> Choices<'a> {
@@ -112,7 +114,7 @@ impl<'a> Choices<'a> {
         let wait_s = wait_s(charge.to_full_s - flight.most_s);
         let ready_s = self.time_s + wait_s + self.departures.block_s(to);
         let to_full_s = flight.when_ready_s(charge.to_full_s.min(flight.most_s));
-        let ready = charge.levels.nearest_to((charge.kind, to), ready_s, to_full_s.into());
+        let ready = charge.levels.nearest((charge.kind, to), ready_s, to_full_s.into());
         let follows_usd = self.worths.at_level_usd(to, ready.no_sooner_than(self.time_s));
         let takeoff = Time::from_seconds(self.time_s + wait_s);
         self.departures.profit_from_usd(takeoff, to, self.waiting[to.at()]) + follows_usd
@@ -122,6 +124,14 @@ impl<'a> Choices<'a> {
     #[inline]
     pub(super) fn priced(&self, to: VertiportIx) -> PricedChoice {
         PricedChoice { worth_usd: self.worth_usd(to), to }
+    }
+
+    /// The band of the aircraft's charge.
+    #[inline]
+    pub(super) fn band(&self) -> usize {
+        self.charge.as_ref().map_or(0, |charge| {
+            charge.levels.band((charge.kind, self.own), charge.to_full_s.into())
+        })
     }
 
     /// The number of seats that stay empty on a flight.

@@ -308,13 +308,13 @@ fn ready_after(
     if !view.charges_as_needed() {
         return (0, ReadyAt { level, time_s: leg.block_s() });
     }
-    let energy_mwh = whole_mwh(leg.energy_kwh);
+    let (here, there) = (view.charge_rate(kind, from), view.charge_rate(kind, to));
     let charge_mwh = levels.charge_mwh(kind, level);
     let needed_mwh = view.aircraft_type(kind).needed_mwh(leg.energy_kwh);
-    let wait_s = view.charge_rate(kind, from).needed_s(charge_mwh, needed_mwh);
-    let landed_mwh = charge_mwh.max(needed_mwh) - energy_mwh;
-    let ready_mwh = view.charge_rate(kind, to).charged_mwh(landed_mwh, leg.ground_s);
-    let ready = levels.nearest(view, (kind, to), wait_s + leg.block_s(), ready_mwh);
+    let wait_s = here.needed_s(here.battery(charge_mwh), here.need(needed_mwh));
+    let landed_mwh = charge_mwh.max(needed_mwh) - whole_mwh(leg.energy_kwh);
+    let to_full_s = there.to_full_s(there.battery(landed_mwh), leg.ground_s);
+    let ready = levels.nearest((kind, to), wait_s + leg.block_s(), to_full_s);
     // It may not decide again at once, for ever.
     (wait_s, ready.no_sooner_than(SLOT_S))
 }
@@ -331,9 +331,9 @@ pub(super) fn ready_after_hold(
     if !view.charges_as_needed() {
         return ReadyAt { level, time_s: hold_s };
     }
-    let charge_mwh = levels.charge_mwh(kind, level);
-    let held_mwh = view.charge_rate(kind, at).charged_mwh(charge_mwh, hold_s);
-    levels.nearest(view, (kind, at), hold_s, held_mwh).no_sooner_than(SLOT_S)
+    let rate = view.charge_rate(kind, at);
+    let to_full_s = rate.to_full_s(rate.battery(levels.charge_mwh(kind, level)), hold_s);
+    levels.nearest((kind, at), hold_s, to_full_s).no_sooner_than(SLOT_S)
 }
 
 /// Price of the energy of flights of a given duration that take off in a period, dollars per kWh:

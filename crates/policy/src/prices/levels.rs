@@ -22,6 +22,49 @@ pub(super) struct Levels {
     charge_mwh: Vec<u64>,
     /// By type, vertiport, then level: seconds from there to a full battery.
     to_full_s: Vec<f64>,
+    /// By type, then vertiport.
+    nearest: Vec<Nearest>,
+}
+
+/// Number of parts of the time in which a battery charges, of each of which the first level is
+/// kept: levels are looked up more often than anything else.
+const PARTS: usize = 32;
+
+/// The levels that are nearest to some numbers of seconds to a full battery.
+#[derive(Debug, Clone)]
+struct Nearest {
+    parts_a_second: f64,
+    /// The level nearest to the beginning of each part.
+    first: [u8; PARTS],
+    /// Up to how many seconds each level is the nearest.
+    until_s: [f64; LEVELS],
+}
+
+impl Nearest {
+    fn of(levels_s: &[f64; LEVELS], full_s: f64) -> Self {
+        let mut until_s = [f64::INFINITY; LEVELS];
+        for (until_s, pair) in until_s.iter_mut().zip(levels_s.windows(2)) {
+            *until_s = (pair[0] + pair[1]) / 2.0;
+        }
+        let mut nearest =
+            Self { parts_a_second: PARTS as f64 / full_s, first: [0; PARTS], until_s };
+        for part in 1..PARTS {
+            let level = nearest.level(part as f64 / nearest.parts_a_second);
+            nearest.first[part..].fill(u8::try_from(level).expect("there are few levels"));
+        }
+        nearest
+    }
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the parts")]
+    fn level(&self, to_full_s: f64) -> usize {
+        let part = ((to_full_s * self.parts_a_second) as usize).min(PARTS - 1);
+        let mut level = usize::from(self.first[part]);
+        while to_full_s > self.until_s[level] {
+            level += 1;
+        }
+        level
+    }
 }
 
 /// The level of an aircraft and when it counts as ready, seconds.
@@ -39,25 +82,60 @@ impl ReadyAt {
 }
 
 impl Levels {
+    /// Number of bands of charge: above the first level, between two levels, and below the last.
+    pub(super) fn bands(&self) -> usize {
+        if self.count == 1 { 1 } else { self.count + 1 }
+    }
+
+    /// The band of an aircraft from which a full battery is some seconds away.
+    #[inline]
+    pub(super) fn band(&self, (kind, at): (TypeIx, VertiportIx), to_full_s: f64) -> usize {
+        self.to_full_s(kind, at).partition_point(|&level_s| level_s < to_full_s)
+    }
+
+    /// Seconds from each level to a full battery, in rising order.
+    #[inline]
+    pub(super) fn to_full_s(&self, kind: TypeIx, at: VertiportIx) -> &[f64] {
+        &self.to_full_s[(kind.at() * self.vertiports + at.at()) * self.count..][..self.count]
+    }
+
+    /// The same, each with the range of seconds to which it is the [nearest](Self::nearest).
+    pub(super) fn cells_s(
+        &self,
+        kind: TypeIx,
+        at: VertiportIx,
+    ) -> impl Iterator<Item = (f64, (f64, f64))> {
+        let levels_s = self.to_full_s(kind, at);
+        let middle_s = |level: usize| (levels_s[level] + levels_s[level + 1]) / 2.0;
+        levels_s.iter().enumerate().map(move |(level, &level_s)| {
+            let from_s = if level == 0 { f64::NEG_INFINITY } else { middle_s(level - 1) };
+            let until_s = if level + 1 < levels_s.len() { middle_s(level) } else { f64::INFINITY };
+            (level_s, (from_s, until_s))
+        })
+    }
+
     pub(super) fn of(view: View<'_>) -> Self {
         let vertiports = view.vertiports();
         if !view.charges_as_needed() {
-            let (charge_mwh, to_full_s) = (Vec::new(), Vec::new());
-            return Self { count: 1, vertiports, charge_mwh, to_full_s };
+            let (charge_mwh, to_full_s, nearest) = (Vec::new(), Vec::new(), Vec::new());
+            return Self { count: 1, vertiports, charge_mwh, to_full_s, nearest };
         }
         let (mut charge_mwh, mut to_full_s) = (Vec::new(), Vec::new());
+        let mut nearest = Vec::new();
         for (at, kind) in view.aircraft_types().iter().enumerate() {
             let usable_kwh = kind.battery_kwh - kind.reserve_kwh;
             let share = |level| 1.0 - level as f64 / (LEVELS - 1) as f64;
             let mwh = |level| whole_mwh(kind.reserve_kwh + share(level) * usable_kwh);
-            let levels: Vec<u64> = (0..LEVELS).map(mwh).collect();
+            let levels: [u64; LEVELS] = std::array::from_fn(mwh);
             for vertiport in VertiportIx::all(vertiports) {
                 let rate = view.charge_rate(TypeIx::new(at), vertiport);
-                to_full_s.extend(levels.iter().map(|&mwh| rate.to_full_s(mwh)));
+                let levels_s = levels.map(|mwh| rate.to_full_s(rate.battery(mwh), 0));
+                nearest.push(Nearest::of(&levels_s, rate.full_s()));
+                to_full_s.extend(levels_s);
             }
             charge_mwh.extend(levels);
         }
-        Self { count: LEVELS, vertiports, charge_mwh, to_full_s }
+        Self { count: LEVELS, vertiports, charge_mwh, to_full_s, nearest }
     }
 
     /// The charge of a level, mWh.
@@ -65,37 +143,20 @@ impl Levels {
         self.charge_mwh[kind.at() * self.count + usize::from(level)]
     }
 
-    /// The level nearest to the charge with which an aircraft is ready at a time.
-    pub(super) fn nearest(
-        &self,
-        view: View<'_>,
-        (kind, at): (TypeIx, VertiportIx),
-        ready_s: u32,
-        charge_mwh: u64,
-    ) -> ReadyAt {
-        let to_full_s = view.charge_rate(kind, at).to_full_s(charge_mwh);
-        self.nearest_to((kind, at), ready_s, to_full_s)
-    }
-
-    /// The same for a charge from which a full battery is some seconds away.
+    /// The level nearest to the charge with which an aircraft is ready at a time. A full battery is
+    /// some seconds away from it.
     #[inline]
-    pub(super) fn nearest_to(
+    #[expect(clippy::cast_possible_truncation, reason = "there are few levels")]
+    pub(super) fn nearest(
         &self,
         (kind, at): (TypeIx, VertiportIx),
         ready_s: u32,
         to_full_s: f64,
     ) -> ReadyAt {
-        let first = (kind.at() * self.vertiports + at.at()) * self.count;
-        let levels_s = &self.to_full_s[first..][..self.count];
-        let below = levels_s.partition_point(|&level_s| level_s < to_full_s);
-        let off_s = |level: usize| (levels_s[level] - to_full_s).abs();
-        let level = match below.min(self.count - 1) {
-            level if level > 0 && off_s(level - 1) <= off_s(level) => level - 1,
-            level => level,
-        };
+        let level = self.nearest[kind.at() * self.vertiports + at.at()].level(to_full_s);
         ReadyAt {
-            level: u16::try_from(level).expect("there are few levels"),
-            time_s: moved_s(ready_s, to_full_s - levels_s[level]),
+            level: level as Level,
+            time_s: moved_s(ready_s, to_full_s - self.to_full_s(kind, at)[level]),
         }
     }
 }
@@ -107,5 +168,6 @@ impl Levels {
     reason = "not below 0, and a full charge takes at most 5,000 hours"
 )]
 fn moved_s(time_s: u32, by_s: f64) -> u32 {
-    (f64::from(time_s) + by_s).round().max(0.0) as u32
+    // `as` cuts what is below 0, and the fraction.
+    (f64::from(time_s) + by_s + 0.5) as u32
 }

@@ -14,7 +14,10 @@ use vertifleet_core::{Time, TypeIx, VertiportIx};
 use vertifleet_sim::View;
 
 use super::Choices;
+use super::bands::{Arrivals, Bands};
+use super::charged_flights::ChargedFlights;
 use super::clock::{Clock, SLOT_S};
+use super::levels::Levels;
 use super::values::ValueTable;
 
 /// More than the error of a sum of a few floating-point numbers, dollars.
@@ -29,14 +32,16 @@ struct Most {
     to: VertiportIx,
 }
 
-/// The destinations within range, for each type, vertiport and slot, from the highest bound on.
+/// The destinations within range, for each type, vertiport, slot and band of charge, from the
+/// highest bound on.
 #[derive(Debug, Clone)]
 pub(super) struct Ranks {
     clock: Clock,
     vertiports: usize,
+    bands: usize,
     slots: Range<usize>,
     /// For each type and vertiport, and at the end: the number of destinations of all before it, in
-    /// one slot.
+    /// one slot and band.
     begins: Vec<usize>,
     all: Vec<Most>,
 }
@@ -48,49 +53,67 @@ impl Ranks {
         view: View<'_>,
         clock: &Clock,
         values: &ValueTable,
+        charging: (&Levels, &ChargedFlights),
         (from, until): (Time, Time),
     ) -> Self {
         let vertiports = view.vertiports();
         let last = clock.slot(until.seconds()).min(clock.slots - 1);
         let slots = clock.slot(from.seconds())..last + 1;
         let fares = Fares::of(view, clock);
+        let bands = Bands::of(view, charging);
         let (mut begins, mut all) = (vec![0], Vec::new());
         let mut within_range = 0;
         for kind in TypeIx::all(view.aircraft_types().len()) {
             for from in VertiportIx::all(vertiports) {
                 let neighbours = view.within_range(kind, from);
+                let arrivals = |to| (to, bands.arrivals(kind, (from, to)));
+                let arrivals: Vec<_> = neighbours.iter().map(arrivals).collect();
                 for slot in slots.clone() {
-                    let begin = all.len();
-                    all.extend(neighbours.iter().map(|to| {
-                        let block_s = view.leg(kind, from, to).block_s();
-                        let (profit_usd, margin_usd) = fares.most_usd(kind, (from, to), slot);
-                        let worth_usd = values.most_usd(kind, to, slot, block_s);
-                        let usd = profit_usd + worth_usd + ROUNDING_USD;
-                        Most {
-                            usd: (usd as f32).next_up(),
-                            less_usd: (margin_usd as f32).next_down().max(0.0),
-                            to,
-                        }
-                    }));
-                    all[begin..].sort_unstable_by(|one, other| other.usd.total_cmp(&one.usd));
+                    for band in 0..charging.0.bands() {
+                        let begin = all.len();
+                        all.extend(arrivals.iter().map(|(to, arrivals)| {
+                            let Arrivals { takeoff_s, ready } = &arrivals[band];
+                            let pair = (from, *to);
+                            let (profit_usd, margin_usd) =
+                                fares.most_usd(kind, pair, slot, *takeoff_s);
+                            let worths_usd =
+                                ready.iter().map(|&ready| values.most_usd(kind, *to, slot, ready));
+                            let worth_usd = worths_usd.fold(f64::NEG_INFINITY, f64::max);
+                            let usd = profit_usd + worth_usd + ROUNDING_USD;
+                            Most {
+                                usd: (usd as f32).next_up(),
+                                less_usd: (margin_usd as f32).next_down().max(0.0),
+                                to: *to,
+                            }
+                        }));
+                        all[begin..].sort_unstable_by(|one, other| other.usd.total_cmp(&one.usd));
+                    }
                 }
                 within_range += neighbours.len() as usize;
                 begins.push(within_range);
             }
         }
-        Self { clock: *clock, vertiports, slots, begins, all }
+        let bands = charging.0.bands();
+        Self { clock: *clock, vertiports, bands, slots, begins, all }
     }
 
-    /// The destinations of a decision; `None` if they are not ranked for its time.
+    /// The destinations of a decision in a band of charge; `None` if they are not ranked for its
+    /// time.
     #[inline]
-    pub(super) fn from(&self, kind: TypeIx, from: VertiportIx, time: Time) -> Option<Ranked<'_>> {
+    pub(super) fn from(
+        &self,
+        (kind, from): (TypeIx, VertiportIx),
+        time: Time,
+        band: usize,
+    ) -> Option<Ranked<'_>> {
         let slot = self.clock.slot(time.seconds());
         if !self.slots.contains(&slot) {
             return None;
         }
         let at = kind.at() * self.vertiports + from.at();
         let (begin, end) = (self.begins[at], self.begins[at + 1]);
-        let before = begin * self.slots.len() + (slot - self.slots.start) * (end - begin);
+        let row = (slot - self.slots.start) * self.bands + band;
+        let before = begin * self.slots.len() * self.bands + row * (end - begin);
         Some(Ranked(&self.all[before..before + end - begin]))
     }
 }
@@ -154,12 +177,14 @@ impl<'a> Fares<'a> {
         Self { view, clock, periods, energy_usd }
     }
 
-    /// The profit of a flight with all seats taken, and what each passenger adds to it at most.
+    /// The profit of a flight with all seats taken that takes off between two times after its
+    /// decision, and what each passenger adds to it at most.
     fn most_usd(
         &self,
         kind: TypeIx,
         (from, to): (VertiportIx, VertiportIx),
         slot: usize,
+        (first_s, last_s): (u32, u32),
     ) -> (f64, f64) {
         let Self { view, clock, .. } = *self;
         let leg = view.leg(kind, from, to);
@@ -169,7 +194,7 @@ impl<'a> Fares<'a> {
         let fare_usd = self.periods[slot].clone().fold(f64::NEG_INFINITY, most);
         let margin_usd = (fare_usd - view.passenger_costs_usd(from)[to.at()]).max(0.0);
         let arrival_s = clock.begin_s(slot) + leg.flight_s;
-        let slots = clock.slot(arrival_s)..=clock.slot(arrival_s + SLOT_S);
+        let slots = clock.slot(arrival_s + first_s)..=clock.slot(arrival_s + last_s + SLOT_S);
         let energy_usd = self.energy_usd[slots].iter().copied().fold(f64::INFINITY, f64::min);
         let cost_usd = leg.energy_kwh * energy_usd + view.flight_costs_usd(from)[to.at()];
         (seats * margin_usd - cost_usd, margin_usd)

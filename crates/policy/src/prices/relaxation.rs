@@ -138,7 +138,7 @@ impl Relaxation {
     /// The destinations of decisions from one time to another, by the values that are
     /// [kept](Self::keep).
     pub(super) fn ranks(&self, view: View<'_>, times: (Time, Time)) -> Ranks {
-        Ranks::of(view, &self.clock, &self.kept_values, times)
+        Ranks::of(view, &self.clock, &self.kept_values, self.charging(), times)
     }
 
     /// The first positions in `stand_usd` and in `passenger_usd` whose prices still matter.
@@ -311,17 +311,6 @@ impl Relaxation {
     /// kept.
     pub(super) fn kept_decisions(&self) -> u32 {
         self.kept_decisions
-    }
-
-    /// The level nearest to the charge with which an aircraft is ready at a time.
-    pub(super) fn nearest(
-        &self,
-        view: View<'_>,
-        at: (TypeIx, VertiportIx),
-        ready: Time,
-        charge_mwh: u64,
-    ) -> ReadyAt {
-        self.levels.nearest(view, at, ready.seconds(), charge_mwh)
     }
 
     /// The levels of charge, and what flights do to it.

@@ -139,15 +139,23 @@ impl ValueTable {
         }
     }
 
-    /// The most that [`WorthsFrom::usd`] returns for flights that are decided in a slot and take
-    /// `block_s`. Between two boundaries nothing is worth more than at the better one.
-    pub(super) fn most_usd(&self, kind: TypeIx, to: VertiportIx, slot: usize, block_s: u32) -> f64 {
+    /// The most that [`WorthsFrom::at_level_usd`] returns for flights that are decided in a slot
+    /// and of which the aircraft is ready between two times after its decision. Between two
+    /// boundaries nothing is worth more than at the better one.
+    pub(super) fn most_usd(
+        &self,
+        kind: TypeIx,
+        to: VertiportIx,
+        slot: usize,
+        (level, earliest_s, latest_s): (Level, u32, u32),
+    ) -> f64 {
         let begin_s = self.clock.begin_s(slot);
-        let first = self.clock.place(begin_s + block_s).slot;
-        let last = self.clock.place(begin_s + block_s + SLOT_S).slot + 1;
+        let first = self.clock.place(begin_s + earliest_s).slot;
+        let last = self.clock.place(begin_s + latest_s + SLOT_S).slot + 1;
         let most = |row: &[f64]| row.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let place = kind.at() * self.vertiports + to.at();
-        let worth_usd = &self.worth_less_paid_usd[place * self.levels * self.stride..];
+        let row = place * self.levels + usize::from(level);
+        let worth_usd = &self.worth_less_paid_usd[row * self.stride..];
         let paid_usd = &self.paid_usd[to.at() * self.stride + slot..][..2];
         most(&worth_usd[first..=last]) + most(paid_usd)
     }

@@ -1,7 +1,7 @@
 //! What is in the batteries of a live day that charges as needed: what follows from take-offs, and
 //! what is reported.
 
-use vertifleet_core::{AircraftIx, Time, whole_mwh};
+use vertifleet_core::{AircraftIx, Battery, Time, whole_mwh};
 
 use super::report::ReportError;
 use super::{LiveDay, LiveDecision, Phase};
@@ -26,15 +26,14 @@ impl LiveDay {
         let is_on_its_way = self.aircraft[aircraft.at()].phase != Phase::Standing;
         let batteries = &self.known.batteries;
         (is_on_its_way && !batteries.are_always_full())
-            .then(|| batteries.landed_mwh(aircraft) as f64 / 1e6)
+            .then(|| batteries.landed(aircraft).mwh as f64 / 1e6)
     }
 
     /// The charge at a time before the take-off of a flight, mWh.
     fn charge_before_mwh(&self, flight: usize, time: Time) -> u64 {
         let LiveDecision { row, before, .. } = &self.decisions[flight];
         let kind = self.scenario().aircraft[row.aircraft.at()].kind;
-        let rate = self.known.legs.rate(kind, row.from);
-        rate.charged_mwh(before.landed_mwh, time.since(before.arrival))
+        self.known.legs.charge_mwh(kind, row.from, before.landed(), time)
     }
 
     /// Enters the charge with which a flight lands that takes off at a time. Nothing is entered on
@@ -45,7 +44,8 @@ impl LiveDay {
         }
         let row = &self.decisions[flight].row;
         let charged_mwh = self.charge_before_mwh(flight, takeoff);
-        batteries.land(row.aircraft, charged_mwh.saturating_sub(whole_mwh(row.energy_kwh)));
+        let landed_mwh = charged_mwh.saturating_sub(whole_mwh(row.energy_kwh));
+        batteries.land(row.aircraft, self.battery(row.aircraft, landed_mwh));
     }
 
     /// Sets when a flight takes off, and with it the charge that it lands with.
@@ -59,7 +59,14 @@ impl LiveDay {
     pub(super) fn keep_charge(&mut self, aircraft: AircraftIx, time: Time) {
         if !self.known.batteries.are_always_full() {
             let charge_mwh = self.known.charge_mwh(aircraft, time);
-            self.known.batteries.land(aircraft, charge_mwh);
+            self.set_charge(aircraft, charge_mwh);
+        }
+    }
+
+    /// Lets an aircraft that has been moved charge where it is now.
+    pub(super) fn plug_in(&mut self, aircraft: AircraftIx) {
+        if !self.known.batteries.are_always_full() {
+            self.set_charge(aircraft, self.known.batteries.landed(aircraft).mwh);
         }
     }
 
@@ -86,7 +93,19 @@ impl LiveDay {
     /// Corrects the charge that an aircraft has landed with.
     pub(super) fn correct_charge(&mut self, aircraft: AircraftIx, charge_kwh: Option<f64>) {
         if let Some(charge_kwh) = charge_kwh {
-            self.known.batteries.land(aircraft, whole_mwh(charge_kwh));
+            self.set_charge(aircraft, whole_mwh(charge_kwh));
         }
+    }
+
+    /// Sets the charge that an aircraft has landed with where it is, mWh.
+    fn set_charge(&mut self, aircraft: AircraftIx, mwh: u64) {
+        let battery = self.battery(aircraft, mwh);
+        self.known.batteries.land(aircraft, battery);
+    }
+
+    /// The battery of an aircraft that begins to charge where it is, or will land.
+    fn battery(&self, aircraft: AircraftIx, mwh: u64) -> Battery {
+        let kind = self.scenario().aircraft[aircraft.at()].kind;
+        self.known.legs.rate(kind, self.known.place[aircraft.at()]).battery(mwh)
     }
 }

@@ -5,7 +5,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
 
-use vertifleet_core::{AircraftIx, Matrix, Scenario, Time, VertiportIx};
+use vertifleet_core::{AircraftIx, Battery, Matrix, Scenario, Time, VertiportIx};
 
 use super::report::{Report, Routes};
 use crate::{DayTotals, Decision, Refusal, Simulation, TraceRow};
@@ -25,7 +25,7 @@ pub struct Reporter {
     /// The latest end of outage that was reported of each aircraft.
     out_until: Vec<Time>,
     /// When each aircraft had landed before its latest decision, and with which charge.
-    landings: Vec<(Time, u64)>,
+    landings: Vec<(Time, Battery)>,
 }
 
 impl Reporter {
@@ -38,7 +38,7 @@ impl Reporter {
             reports: Vec::new(),
             entered: 0,
             out_until: vec![Time::default(); fleet],
-            landings: vec![(Time::default(), 0); fleet],
+            landings: vec![Default::default(); fleet],
         };
         if let Some(forecast) = &scenario.disturbances.forecast {
             for (period, (actual, forecast)) in scenario.demand.iter().zip(forecast).enumerate() {
@@ -170,16 +170,16 @@ impl Reporter {
         self.day.stands.leave(aircraft, self.day.place[aircraft.at()]);
         self.day.stands.take(aircraft, from, false);
         self.day.place[aircraft.at()] = from;
-        let (arrival, landed_mwh) = self.landings[aircraft.at()];
+        let (arrival, battery) = self.landings[aircraft.at()];
         self.day.arrival[aircraft.at()] = arrival;
-        self.day.batteries.restore(aircraft, landed_mwh);
+        self.day.batteries.restore(aircraft, battery);
         self.set_ready(aircraft, ready);
     }
 
     /// Keeps the latest landing of an aircraft, in case its next decision is taken back.
     fn keep_landing(&mut self, aircraft: AircraftIx) {
         let arrival = self.day.arrival[aircraft.at()];
-        self.landings[aircraft.at()] = (arrival, self.day.batteries.kept_mwh(aircraft));
+        self.landings[aircraft.at()] = (arrival, self.day.batteries.kept(aircraft));
     }
 
     /// Sets when an aircraft is ready, where people have better information.

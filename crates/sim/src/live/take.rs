@@ -189,7 +189,7 @@ impl LiveDay {
         Before {
             charged: self.aircraft[aircraft.at()].charged,
             arrival: self.known.arrival[aircraft.at()],
-            landed_mwh: self.known.batteries.kept_mwh(aircraft),
+            battery: self.known.batteries.kept(aircraft),
             waited: self.known.stands.waits(aircraft),
         }
     }
@@ -224,7 +224,7 @@ impl LiveDay {
         self.known.stands.take(aircraft, row.from, before.waited);
         self.known.place[aircraft.at()] = row.from;
         self.known.arrival[aircraft.at()] = before.arrival;
-        self.known.batteries.restore(aircraft, before.landed_mwh);
+        self.known.batteries.restore(aircraft, before.battery);
         let state = &mut self.aircraft[aircraft.at()];
         (state.phase, state.undoable) = (Phase::Standing, None);
         self.set_charged(aircraft, before.charged);

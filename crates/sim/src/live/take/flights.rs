@@ -202,6 +202,7 @@ impl LiveDay {
         self.known.stands.leave(aircraft, self.known.place[aircraft.at()]);
         self.known.stands.take(aircraft, at, false);
         self.known.place[aircraft.at()] = at;
+        self.plug_in(aircraft);
     }
 
     /// Lets a flight end at another vertiport. It takes the energy of the flight there, or what it

@@ -1,0 +1,53 @@
+//! What a battery holds from a landing until the next take-off, on days that charge as needed (page
+//! Model, section Energy).
+
+use vertifleet_core::{Battery, Time, TypeIx, VertiportIx};
+
+use crate::Legs;
+
+/// The latest landing of an aircraft, or the start of operations.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Landed {
+    /// The time from which on it charges.
+    pub arrival: Time,
+    /// Its battery then; empty on days that charge to full.
+    pub battery: Battery,
+}
+
+/// For days that charge as needed. The others panic.
+impl Legs {
+    /// The charge at a time from the landing until take-off of a type that stands at a vertiport,
+    /// mWh.
+    #[inline]
+    pub fn charge_mwh(&self, kind: TypeIx, at: VertiportIx, landed: Landed, time: Time) -> u64 {
+        self.rate(kind, at).charged_mwh(landed.battery, time.since(landed.arrival))
+    }
+
+    /// The first time, not before its decision, at which the charge suffices for a flight.
+    #[inline]
+    pub fn takeoff(
+        &self,
+        kind: TypeIx,
+        (from, to): (VertiportIx, VertiportIx),
+        landed: Landed,
+        decided: Time,
+    ) -> Time {
+        let need = self.charge_of(kind, (from, to)).need;
+        decided.max(landed.arrival + self.rate(kind, from).needed_s(landed.battery, need))
+    }
+
+    /// The battery with which a flight lands that leaves at a time. A flight that a report forces
+    /// may take more than there is.
+    #[inline]
+    pub fn lands_with(
+        &self,
+        kind: TypeIx,
+        (from, to): (VertiportIx, VertiportIx),
+        landed: Landed,
+        left: Time,
+    ) -> Battery {
+        let taken_mwh = self.charge_of(kind, (from, to)).energy_mwh;
+        let charge_mwh = self.charge_mwh(kind, from, landed, left);
+        self.rate(kind, to).battery(charge_mwh.saturating_sub(taken_mwh))
+    }
+}
