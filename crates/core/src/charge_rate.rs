@@ -220,7 +220,11 @@ impl ChargeRate {
         let exact_s = (need.filled_s - from.filled_s).max(0.0);
         let seconds = exact_s.ceil();
         let off_s = (exact_s - exact_s.round()).abs();
-        if off_s > ROUNDING_S { seconds as u32 } else { self.searched_s(from, need, seconds as u32) }
+        if off_s > ROUNDING_S {
+            seconds as u32
+        } else {
+            self.searched_s(from, need, seconds as u32)
+        }
     }
 
     /// The same where rounding may matter, from a number of seconds that is about right.

@@ -10,7 +10,6 @@
 mod best_itineraries;
 mod certificate;
 mod charge_levels;
-mod charging_price;
 mod charging_time;
 mod descent;
 mod designs;
@@ -35,7 +34,6 @@ mod without_foresight_tests;
 use vertifleet_core::{Scenario, Stop, Time, VertiportIx};
 
 use crate::Error;
-use charging_time::Charge;
 use descent::Found;
 use market::Market;
 use prices::Prices;
@@ -63,8 +61,8 @@ pub struct Bound {
     micro_usd: i128,
     /// The fixed cost of the fleet and its sites, micro-dollars.
     fixed_cost: i64,
-    /// How the charge of aircraft is relaxed.
-    charge: Charge,
+    /// Number of levels of charge.
+    levels: u16,
     is_final: bool,
 }
 
@@ -107,8 +105,9 @@ pub fn upper_bound_of_rest(
 
 /// The shortest step for which a day is not too large; `None` if it is too large for all.
 pub(crate) fn finest_step(scenario: &Scenario) -> Option<Step> {
-    let fits =
-        |step: &Step| TimeExpandedDay::fits(scenario, step.seconds(), Charge::IGNORED).is_ok();
+    let fits = |step: &Step| {
+        TimeExpandedDay::fits(scenario, step.seconds(), step.most_levels(scenario)).is_ok()
+    };
     STEPS.into_iter().rev().find(fits)
 }
 
@@ -141,7 +140,7 @@ impl Bound {
             prices: found.prices.clone(),
             micro_usd: found.bound(day),
             fixed_cost: day.fixed_cost,
-            charge: day.charge,
+            levels: day.levels,
             is_final: false,
         }
     }

@@ -2,8 +2,8 @@
 //! once a day.
 
 use vertifleet_core::{
-    AircraftType, ChargeRate, Charging, Need, Operations, Scenario, TypeIx, Vertiport,
-    VertiportIx, whole_mwh,
+    AircraftType, ChargeRate, Charging, Need, Operations, Scenario, TypeIx, Vertiport, VertiportIx,
+    whole_mwh,
 };
 
 use crate::VertiportSet;

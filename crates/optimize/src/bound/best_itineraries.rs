@@ -30,7 +30,8 @@ struct Ready {
 impl BestItineraries<'_> {
     /// The best itinerary of each group, which is the aircraft of one layer that start alike, and
     /// their number. Where passengers choose between flights with several prices, those of each
-    /// part of the market are a group too.
+    /// part of the market are a group too, and on days that charge as needed the batteries of a
+    /// type from one period to the next.
     pub(super) fn of_groups(&self) -> Vec<(u32, Itinerary)> {
         let layers = self.day.layers.iter().enumerate();
         let groups =
@@ -40,14 +41,17 @@ impl BestItineraries<'_> {
         let buyers = market.blocks_that_choose();
         let buyers =
             buyers.map(|block| (1, Itinerary::of_buyers(market, block, &self.prices.flight)));
-        aircraft.chain(buyers).collect()
+        let stores = self.day.charging.stores(&self.prices.charging);
+        aircraft.chain(buyers).chain(stores).collect()
     }
 
     fn itinerary(&self, layer: usize, start: &Start) -> Itinerary {
         let slices = &self.day.slices;
         let day_s = slices.day_s();
-        let earnings = start.gift as f64;
-        let mut itinerary = Itinerary { earnings, stays: Vec::new(), flights: Vec::new() };
+        let prices = self.day.charging.of_kind(self.day.layers[layer].kind);
+        let charges_from = u32::try_from(prices.start).expect("a day has few prices");
+        let charging_s = vec![0.0; prices.len()];
+        let mut itinerary = Itinerary { charging_s, charges_from, ..Itinerary::default() };
         let Start { at, level, ready_s: second, .. } = *start;
         let mut ready = Ready { layer, at, level, second, owes: true };
         let mut slice = slices.containing(slices.start_s(0) + ready.second.min(day_s));
@@ -59,8 +63,13 @@ impl BestItineraries<'_> {
             } else {
                 let payment = self.payment(ready);
                 itinerary.earnings -= payment as f64;
-                ready = if let Some(flight) = self.best_flight(ready, payment, slice) {
+                ready = if let Some((position, flight)) = self.best_flight(ready, payment, slice) {
                     itinerary.fly(flight);
+                    if let Some(used) = self.day.uses().get(position) {
+                        used.at(&self.prices.charging)
+                            .into_iter()
+                            .for_each(|used| itinerary.charge(used));
+                    }
                     self.goes_on(ready, (flight.to.at(), flight.level), flight.block_s)
                 } else {
                     let place = self.day.place(ready.at, ready.level);
@@ -118,15 +127,18 @@ impl BestItineraries<'_> {
 
     /// The first flight in file order whose worth equals that of being ready in a slice, after a
     /// payment.
-    fn best_flight(&self, ready: Ready, payment: i64, slice: usize) -> Option<&Flight> {
+    fn best_flight(&self, ready: Ready, payment: i64, slice: usize) -> Option<(usize, &Flight)> {
         let paid = |at| self.certificate.paid(self.day, slice, at);
         let here = self.worth_less_paid(ready) + payment + paid(ready.at);
         let place = self.day.place(ready.at, ready.level);
-        self.day.flights(slice, ready.layer, place).iter().find(|flight| {
+        let positions = self.day.positions(slice, ready.layer, place);
+        let flights = self.day.flights(slice, ready.layer, place);
+        positions.zip(flights).find(|&(position, flight)| {
             let to = flight.to.at();
             let next = self.goes_on(ready, (to, flight.level), flight.block_s);
             let goes_on = self.worth_less_paid(next);
-            here == earnings(self.prices, flight) + paid(to) + goes_on
+            let earns = earnings(self.prices, flight) - self.certificate.pays(position);
+            here == earns + paid(to) + goes_on
         })
     }
 }

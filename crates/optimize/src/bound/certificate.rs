@@ -38,6 +38,8 @@ pub(super) struct Certificate {
     /// earlier slot and still has to pay, and this is the worth to one that decided in the same
     /// slot before. Empty on other days.
     within_slot: Vec<i64>,
+    /// What each flight pays for its charging; empty on days that charge to full.
+    pays: Vec<i64>,
     /// Distance from a place to the next in `worth_less_paid`.
     stride: usize,
     arch: Arch,
@@ -52,6 +54,7 @@ impl Certificate {
             paid: Vec::with_capacity((day.slices.len() + 1) * day.size()),
             worth_less_paid: vec![0; places],
             within_slot: vec![0; if day.penalty.is_some() { places } else { 0 }],
+            pays: Vec::with_capacity(day.uses().len()),
             stride,
             arch: Arch::new(),
         }
@@ -66,18 +69,26 @@ impl Certificate {
         stopped: &Stop,
     ) -> Option<i128> {
         self.pay(day, prices);
+        self.pays.clear();
+        self.pays.extend(day.uses().iter().map(|used| used.payment(&prices.charging)));
         let of_layer = self.stride * day.places();
         let mut within_slot = self.within_slot.chunks_exact_mut(of_layer);
         let layers = self.worth_less_paid.chunks_exact_mut(of_layer);
         for (layer, worths) in layers.enumerate() {
-            let (paid, stride) = (&self.paid[..], self.stride);
+            let (paid, pays, stride) = (&self.paid[..], &self.pays[..], self.stride);
             let within_slot = within_slot.next().unwrap_or_default();
-            let pass = LayerPass { day, prices, paid, layer, stride, worths, within_slot, stopped };
+            let pass =
+                LayerPass { day, prices, paid, pays, layer, stride, worths, within_slot, stopped };
             if !self.arch.dispatch(pass) {
                 return None;
             }
         }
-        Some(self.fleet(day) + dual_constant(day, prices))
+        Some(self.fleet(day, prices) + dual_constant(day, prices))
+    }
+
+    /// What the flight at a position among all flights pays for its charging.
+    pub(super) fn pays(&self, position: usize) -> i64 {
+        self.pays.get(position).copied().unwrap_or(0)
     }
 
     /// Price of a stand at a vertiport from the start of the day until a slice begins.
@@ -138,15 +149,18 @@ impl Certificate {
 
     /// The most that the whole fleet earns after payments. Nothing has been paid when the day
     /// begins.
-    fn fleet(&self, day: &TimeExpandedDay) -> i128 {
+    fn fleet(&self, day: &TimeExpandedDay, prices: &Prices) -> i128 {
         let layers = day.layers.iter().enumerate();
         let starts =
             layers.flat_map(|(layer, kind)| kind.starts.iter().map(move |one| (layer, one)));
+        let gift = |layer: usize, start: &Start| {
+            day.charging.gift(&prices.charging, day.layers[layer].kind, start.charged_s)
+        };
         let earned = |(layer, start): (usize, &Start)| {
             // The price of the stand until they are ready has been deducted.
             let place = day.place(start.at, start.level);
             let worth = self.worth_less_paid(day, layer, place, start.ready_s as usize);
-            i128::from(start.count) * i128::from(worth + start.gift)
+            i128::from(start.count) * i128::from(worth + gift(layer, start))
         };
         starts.map(earned).sum()
     }
@@ -157,6 +171,7 @@ struct LayerPass<'a> {
     day: &'a TimeExpandedDay,
     prices: &'a Prices,
     paid: &'a [i64],
+    pays: &'a [i64],
     layer: usize,
     stride: usize,
     worths: &'a mut [i64],
@@ -220,9 +235,14 @@ impl LayerPass<'_> {
         let stays = self.paid(slice, from);
         let held = self.day.held(self.layer, place);
         self.raise(best, held, begin + self.day.hold_s as usize, past_slot, 0);
-        for flight in self.day.flights(slice, self.layer, place) {
+        let flights = self.day.flights(slice, self.layer, place);
+        let pays = self.pays.get(self.day.positions(slice, self.layer, place));
+        let mut pays = pays.unwrap_or_default().iter();
+        for flight in flights {
             let to = self.day.place(flight.to.at(), flight.level);
-            let flies = earnings(self.prices, flight) + self.paid(slice, flight.to.at()) - stays;
+            let pays = pays.next().unwrap_or(&0);
+            let flies =
+                earnings(self.prices, flight) - pays + self.paid(slice, flight.to.at()) - stays;
             self.raise(best, to, begin + flight.block_s as usize, past_slot, flies);
         }
         let layer = &self.day.layers[self.layer];
@@ -278,7 +298,7 @@ fn wait_freely(worths: &mut [i64], mut later: i64) {
     }
 }
 
-/// The earnings of a flight: its price less its cost.
+/// The earnings of a flight before its charging: its price less its cost.
 #[inline]
 pub(super) fn earnings(prices: &Prices, flight: &Flight) -> i64 {
     prices.flight[flight.sold_at as usize] - flight.cost

@@ -90,7 +90,7 @@ impl Bound {
     /// If `scenario` is not the day of the bound.
     pub fn of_designs(&self, scenario: &Scenario, may_fail: bool) -> Result<DesignBound, Error> {
         let probe = one_of_each_type(scenario, may_fail);
-        let day = TimeExpandedDay::of(&probe, &[], self.step_s(), self.charge)?;
+        let day = TimeExpandedDay::of(&probe, &[], self.step_s(), self.levels)?;
         let size = day.size();
         assert_eq!(self.prices.stand.len(), day.slices.len() * size, "the prices are of this day");
         let flight = self.market.prices_with_more_flights(&day.market, &self.prices.flight);
@@ -104,7 +104,8 @@ impl Bound {
             let starts = (0..size).map(|at| day.place(at, day.full()));
             let worths = starts.map(|place| certificate.worth_less_paid(&day, number, place, 0));
             // A full battery at the start, which the probe has, is the most that a design may have.
-            let gift = layer.starts.iter().map(|start| start.gift).max().unwrap_or(0);
+            let charged_s = layer.starts.iter().map(|start| start.charged_s).max().unwrap_or(0);
+            let gift = day.charging.gift(&prices.charging, layer.kind, charged_s);
             aircraft[layer.kind.at()] = worths.max().map_or(0, |worth| i128::from(worth + gift));
         }
         let mut places = vec![0; size];

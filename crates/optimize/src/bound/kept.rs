@@ -13,7 +13,6 @@ use siphasher::sip128::{Hasher128, SipHasher24};
 use vertifleet_core::{Scenario, Stop, create_folder, read_at_most, write_atomically};
 
 use super::certificate::Certificate;
-use super::charging_time::Charge;
 use super::descent::Found;
 use super::prices::Prices;
 use super::step::LEVELS;
@@ -33,9 +32,12 @@ struct Kept {
     minutes: u32,
     stand: Vec<i64>,
     flight: Vec<i64>,
-    /// Of a second of charging, and the number of levels of charge.
+    /// Of a second of charging.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    charging: Vec<i64>,
+    /// Number of levels of charge, on days that charge as needed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    charging: Option<(i64, u16)>,
+    levels: Option<u16>,
 }
 
 /// Does the same as [`upper_bound_unless`], but takes the prices from a file in `folder` if it
@@ -55,13 +57,13 @@ pub fn kept_upper_bound(
         return Ok(Some(bound));
     }
     let Some(bound) = upper_bound_unless(stopped, scenario, step)? else { return Ok(None) };
-    let (minutes, Prices { stand, flight }) = (bound.step.minutes, bound.prices);
-    let Charge { price, levels } = bound.charge;
-    let charging = (bound.charge != Charge::IGNORED).then_some((price, levels));
-    let kept = Kept { minutes, stand, flight, charging };
+    let (minutes, Prices { stand, flight, charging }) = (bound.step.minutes, bound.prices);
+    let levels = (!charging.is_empty()).then_some(bound.levels);
+    let kept = Kept { minutes, stand, flight, charging, levels };
     create_folder(folder)?;
     write_atomically(&path, &serde_json::to_vec(&kept).expect("whole numbers are plain data"))?;
-    Ok(Some(Bound { prices: Prices { stand: kept.stand, flight: kept.flight }, ..bound }))
+    let Kept { stand, flight, charging, .. } = kept;
+    Ok(Some(Bound { prices: Prices { stand, flight, charging }, ..bound }))
 }
 
 /// The bound of the prices in a file. Returns `None` if there is no such file, if it has no prices
@@ -70,9 +72,12 @@ fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Result<Option<Bound
     let Ok(text) = read_at_most(path, LONGEST) else { return Ok(None) };
     let Ok(kept) = serde_json::from_slice::<Kept>(&text) else { return Ok(None) };
     let Ok(step) = Step::from_minutes(kept.minutes) else { return Ok(None) };
-    let charge = kept.charging.map_or(Charge::IGNORED, |(price, levels)| Charge { price, levels });
-    let day = TimeExpandedDay::of(scenario, &[], step.seconds(), charge)?;
-    let Some(prices) = Prices::checked(&day, kept.stand, kept.flight) else { return Ok(None) };
+    if kept.levels.is_some_and(|levels| levels != 1 && !LEVELS.contains(&levels)) {
+        return Ok(None);
+    }
+    let day = TimeExpandedDay::of(scenario, &[], step.seconds(), kept.levels.unwrap_or(1))?;
+    let prices = Prices::checked(&day, kept.stand, kept.flight, kept.charging);
+    let Some(prices) = prices else { return Ok(None) };
     let proven = Certificate::new(&day).evaluate(&day, &prices, stopped);
     Ok(proven.map(|micro_usd| {
         let bound = Bound::of(step, &day, &Found { prices, micro_usd });

@@ -3,14 +3,14 @@
 //!
 //! The path to the requested slices passes through all coarser ones (`CUTS`) and does the same work
 //! in each for every request. The result is the best bound that was proven on the path, so a
-//! shorter step never gives a looser bound. In each cut, prices are first searched for on a clock
+//! shorter step never gives a looser bound. On days that charge as needed, the finest slices come
+//! again with more levels of charge, from the fewest on. In each cut, prices are first searched for on a clock
 //! that ticks once a minute, where a step takes a fraction of the time and proves nothing, and then
 //! to the second, where every step proves a bound.
 
 use vertifleet_core::{Scenario, Stop, Time};
 
 use super::Bound;
-use super::charging_time::Charge;
 use super::descent::Descent;
 use super::penalty::Penalty;
 use super::prices::{Pace, Prices};
@@ -65,8 +65,8 @@ pub(crate) struct Relaxed<'a> {
     pub(crate) scenario: &'a Scenario,
     /// When aircraft decide first; those past its end are ready from the start.
     pub(crate) ready: &'a [Time],
-    /// How the charge of aircraft is relaxed.
-    pub(super) charge: Charge,
+    /// Number of levels of charge, on days that charge as needed.
+    pub(super) levels: u16,
     /// The payments of aircraft for knowing delays, for a bound without foresight.
     pub(super) penalty: Option<&'a Penalty>,
 }
@@ -74,11 +74,11 @@ pub(crate) struct Relaxed<'a> {
 impl<'a> Relaxed<'a> {
     /// A day that is known in full.
     pub(crate) fn known(scenario: &'a Scenario, ready: &'a [Time]) -> Self {
-        Self { scenario, ready, charge: Charge::IGNORED, penalty: None }
+        Self { scenario, ready, levels: 1, penalty: None }
     }
 
     pub(super) fn day(&self, step: Step) -> Result<TimeExpandedDay, Error> {
-        let mut day = TimeExpandedDay::of(self.scenario, self.ready, step.seconds(), self.charge)?;
+        let mut day = TimeExpandedDay::of(self.scenario, self.ready, step.seconds(), self.levels)?;
         day.penalty = self.penalty.cloned();
         Ok(day)
     }
@@ -106,10 +106,13 @@ pub(crate) fn search(
     step: Step,
     watch: &dyn Watch,
 ) -> Result<Option<Bound>, Error> {
-    TimeExpandedDay::fits(relaxed.scenario, step.seconds(), relaxed.charge)?;
+    TimeExpandedDay::fits(relaxed.scenario, step.seconds(), step.most_levels(relaxed.scenario))?;
     let cuts = || CUTS.iter().filter(|cut| step.minutes <= cut.step.minutes);
-    let in_all = cuts().map(|cut| cut.work(relaxed.scenario)).sum();
-    let relaxed = relaxed.with_charging_price(watch)?;
+    let most_levels = step.most_levels(relaxed.scenario);
+    let levels = || LEVELS.iter().filter(|&&levels| levels <= most_levels);
+    let finest = cuts().next_back().expect("a step is one of the cuts");
+    let in_all = cuts().map(|cut| cut.work(relaxed.scenario, 1)).sum::<f64>()
+        + levels().map(|&levels| finest.work(relaxed.scenario, levels)).sum::<f64>();
     let mut search = Search { relaxed, watch, best: None, done: 0.0, in_all };
     let mut before = None;
     for cut in cuts() {
@@ -118,9 +121,12 @@ pub(crate) fn search(
             break;
         }
     }
-    for &levels in LEVELS[1..].iter().filter(|&&levels| levels <= step.levels) {
-        let Some((slices, prices)) = before.take() else { break };
-        before = search.refine(step, levels, slices, &prices)?;
+    for &levels in levels() {
+        if before.is_none() {
+            break;
+        }
+        search.relaxed.levels = levels;
+        before = search.rise(finest, before)?;
     }
     if before.is_some() {
         watch.has_come(1.0);
@@ -133,17 +139,17 @@ pub(crate) fn search(
 
 impl Cut {
     /// The approximate number of comparisons in all evaluations for each pair of vertiports.
-    fn work(&self, scenario: &Scenario) -> f64 {
+    fn work(&self, scenario: &Scenario, levels: u16) -> f64 {
         let slices = Slices::of(scenario, self.step.seconds());
-        f64::from(self.on_coarse_clock.steps) * comparisons(&slices, TICK_S)
-            + f64::from(self.to_the_second.steps) * comparisons(&slices, 1)
+        f64::from(self.on_coarse_clock.steps) * comparisons(&slices, TICK_S, levels)
+            + f64::from(self.to_the_second.steps) * comparisons(&slices, 1, levels)
     }
 }
 
 /// The approximate number of comparisons in an evaluation for each pair of vertiports. Starting
 /// another flight takes as long as some of them.
-fn comparisons(slices: &Slices, tick_s: u32) -> f64 {
-    f64::from(slices.day_s() / tick_s) + 16.0 * slices.len() as f64
+fn comparisons(slices: &Slices, tick_s: u32, levels: u16) -> f64 {
+    f64::from(levels) * (f64::from(slices.day_s() / tick_s) + 16.0 * slices.len() as f64)
 }
 
 /// A search in progress.
@@ -184,26 +190,6 @@ impl Search<'_> {
         Ok(prices.map(|prices| (slices, prices)))
     }
 
-    /// Searches in the finest slices with more levels of charge, starting with the prices that were
-    /// found with fewer. Returns the prices to continue with, or `None` if the search is to end.
-    fn refine(
-        &mut self,
-        step: Step,
-        levels: u16,
-        slices: Slices,
-        prices: &Prices,
-    ) -> Result<Option<(Slices, Prices)>, Error> {
-        let charge = Charge { levels, ..self.relaxed.charge };
-        self.relaxed.charge = charge;
-        let cut = CUTS.iter().rev().find(|cut| step.minutes <= cut.step.minutes);
-        let Some(cut) = cut.filter(|_| charge.price > 0) else {
-            return Ok(Some((slices, prices.clone())));
-        };
-        let day = self.relaxed.day(cut.step)?;
-        let found = self.prove(cut, &day, cut.to_the_second, prices);
-        Ok(found.map(|prices| (slices, prices)))
-    }
-
     /// Searches for prices on the coarse clock.
     fn search_coarsely(
         &mut self,
@@ -212,7 +198,7 @@ impl Search<'_> {
         slices: &Slices,
         start: &Prices,
     ) -> Option<Prices> {
-        let (pace, step) = (Pace::of(slices), comparisons(slices, TICK_S));
+        let (pace, step) = (Pace::of(slices), comparisons(slices, TICK_S, coarse.levels));
         let done = self.done;
         self.done += f64::from(cut.on_coarse_clock.steps) * step;
         let (watch, in_all, mut steps) = (self.watch, self.in_all, 0.0);
@@ -233,7 +219,7 @@ impl Search<'_> {
         descent: Descent,
         start: &Prices,
     ) -> Option<Prices> {
-        let (pace, step) = (Pace::of(&day.slices), comparisons(&day.slices, 1));
+        let (pace, step) = (Pace::of(&day.slices), comparisons(&day.slices, 1, day.levels));
         let done = self.done;
         self.done += f64::from(descent.steps) * step;
         let (watch, in_all, best, mut steps) = (self.watch, self.in_all, &mut self.best, 0.0);

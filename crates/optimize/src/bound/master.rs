@@ -12,6 +12,10 @@
 //! the same group raises the model's value, and prices follow. This continues until no shift is
 //! worth much.
 
+mod charging;
+
+use charging::ChargingPrices;
+
 use super::itinerary::Itinerary;
 use super::prices::{MOST_FOR_A_STAND, PACE_OF_A_SEAT, Pace, Prices, whole};
 use super::time_expanded_day::TimeExpandedDay;
@@ -141,6 +145,7 @@ pub(super) struct Master<'a> {
     flight: Vec<f64>,
     /// Other facts on each price of a flight.
     buyers: Vec<Buyers>,
+    charging: ChargingPrices,
     /// Price of a stand from the first slice until each slice begins and the last one ends, by
     /// vertiport, then slice.
     paid: Vec<f64>,
@@ -169,6 +174,7 @@ impl<'a> Master<'a> {
             stand: centre.stand.iter().map(|&price| price as f64).collect(),
             flight: centre.flight.iter().map(|&price| price as f64).collect(),
             buyers: (0..centre.flight.len()).map(|position| Buyers::of(day, position)).collect(),
+            charging: ChargingPrices::of(day, &centre.charging),
             paid: vec![0.0; centre.stand.len() + day.size()],
             centre,
         };
@@ -199,6 +205,7 @@ impl<'a> Master<'a> {
             *excess = -f64::from(stands);
         }
         self.flight_excess.fill(0.0);
+        self.charging.clear();
         for group in self.groups.iter().filter(|group| group.count > 0.0) {
             for known in group.itineraries.iter().filter(|known| known.share > 0.0) {
                 let aircraft = group.count * known.share;
@@ -210,6 +217,7 @@ impl<'a> Master<'a> {
                 for &(at, number) in &known.itinerary.flights {
                     self.flight_excess[at as usize] += aircraft * number;
                 }
+                self.charging.add(&known.itinerary, aircraft);
             }
         }
     }
@@ -232,7 +240,8 @@ impl<'a> Master<'a> {
             let stuck = if excess > 0.0 { price <= 0.0 } else { price >= buyers.most };
             if stuck { 0.0 } else { buyers.pace * excess * excess }
         });
-        stands.sum::<f64>() + flights.sum::<f64>()
+        let charging = self.charging.fall(&self.centre.charging);
+        stands.sum::<f64>() + flights.sum::<f64>() + charging
     }
 
     /// Moves the centre of the model to these prices.
@@ -273,6 +282,7 @@ impl<'a> Master<'a> {
         for at in 0..self.flight.len() {
             self.flight[at] = self.flight_price(at);
         }
+        self.charging.reprice(&self.centre.charging, self.reach);
         let mut possible = f64::INFINITY;
         for _ in 0..rounds {
             possible = (0..self.groups.len()).map(|group| self.shift_group(group)).sum();
@@ -309,6 +319,7 @@ impl<'a> Master<'a> {
         });
         let sold = itinerary.flights.iter().map(|&(at, number)| self.flight[at as usize] * number);
         itinerary.earnings - rents.sum::<f64>() + sold.sum::<f64>()
+            - self.charging.payment(itinerary)
     }
 
     /// Shifts aircraft of a group from bad itineraries to the best. Returns what could have been
@@ -380,6 +391,7 @@ impl<'a> Master<'a> {
                 resistance += buyers.pace * number.abs();
             }
         }
+        resistance += self.charging.resistance(from, to);
         self.reach * resistance.max(1e-3)
     }
 
@@ -410,6 +422,7 @@ impl<'a> Master<'a> {
                 self.flight_excess[at as usize] += change * number;
                 self.flight[at as usize] = self.flight_price(at as usize);
             }
+            self.charging.shift(itinerary, change, (&self.centre.charging, self.reach));
         }
     }
 
@@ -421,6 +434,7 @@ impl<'a> Master<'a> {
         for (to, &price) in to.flight.iter_mut().zip(&self.flight) {
             *to = whole(price);
         }
+        self.charging.write(&mut to.charging);
     }
 
     /// The model's estimate of the bound that its prices prove, micro-dollars. It is never more
@@ -434,6 +448,6 @@ impl<'a> Master<'a> {
         let stands = stands.map(|(&number, price)| f64::from(number) * price);
         let surplus = self.buyers.iter().zip(&self.flight);
         let surplus = surplus.map(|(buyers, &price)| buyers.surplus(price));
-        fleet.sum::<f64>() + stands.sum::<f64>() + surplus.sum::<f64>()
+        fleet.sum::<f64>() + stands.sum::<f64>() + surplus.sum::<f64>() + self.charging.value()
     }
 }

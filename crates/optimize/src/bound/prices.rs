@@ -1,9 +1,10 @@
-//! Prices: that of a stand when a slice ends, which aircraft pay, and that of a flight, which
-//! passengers pay.
+//! Prices: those of a stand when a slice ends and of a second of charging, which aircraft pay, and
+//! that of a flight, which passengers pay.
 //!
 //! Any prices within the limits of this file prove a bound (`certificate.rs`); good ones prove a
 //! tight one.
 
+use super::charging_time::MOST_A_SECOND;
 use super::slices::Slices;
 use super::time_expanded_day::TimeExpandedDay;
 
@@ -23,13 +24,20 @@ pub(super) struct Prices {
     /// Price of a flight, by period, from, to; of each, before and after those have left who waited
     /// for it, if passengers wait; of each, by number of seats. No more than a flight can bring.
     pub(super) flight: Vec<i64>,
+    /// Price of a second of charging, by type, then demand period; none on days that charge to
+    /// full.
+    pub(super) charging: Vec<i64>,
 }
 
 impl Prices {
     /// Free stands, and every flight at its highest price.
     pub(super) fn first(day: &TimeExpandedDay) -> Self {
         let flight = (0..day.market.prices()).map(|position| day.market.most(position));
-        Self { stand: vec![0; day.slices.len() * day.size()], flight: flight.collect() }
+        Self {
+            stand: vec![0; day.slices.len() * day.size()],
+            flight: flight.collect(),
+            charging: vec![0; day.charging.prices()],
+        }
     }
 
     /// Prices from a file, if they are valid prices for this day.
@@ -37,15 +45,18 @@ impl Prices {
         day: &TimeExpandedDay,
         stand: Vec<i64>,
         flight: Vec<i64>,
+        charging: Vec<i64>,
     ) -> Option<Self> {
-        let lengths =
-            stand.len() == day.slices.len() * day.size() && flight.len() == day.market.prices();
+        let lengths = stand.len() == day.slices.len() * day.size()
+            && flight.len() == day.market.prices()
+            && charging.len() == day.charging.prices();
         let within =
             |(position, price): (usize, &i64)| (0..=day.market.most(position)).contains(price);
         let within = stand.iter().all(|price| (0..=MOST_FOR_A_STAND).contains(price))
+            && charging.iter().all(|price| (0..=MOST_A_SECOND).contains(price))
             && lengths
             && flight.iter().enumerate().all(within);
-        within.then_some(Self { stand, flight })
+        within.then_some(Self { stand, flight, charging })
     }
 
     /// The same prices in other slices of the same day. The price of a stand in a slice is spread
@@ -64,7 +75,7 @@ impl Prices {
                 stand.push(whole(parts.sum()).clamp(0, MOST_FOR_A_STAND));
             }
         }
-        Self { stand, flight: self.flight.clone() }
+        Self { stand, flight: self.flight.clone(), charging: self.charging.clone() }
     }
 }
 

@@ -4,14 +4,13 @@
 
 use std::sync::Arc;
 
-use proptest::prelude::{ProptestConfig, any, proptest};
+use proptest::prelude::{ProptestConfig, any, prop_assert, proptest};
 use vertifleet_core::{AircraftIx, DaySeed, Network, Scenario, Stop, TakeoffDelays, Time};
 use vertifleet_policy::{BidPricePolicy, Greedy, Policy, Random, draw, play};
 use vertifleet_sim::{Simulation, Trace};
-use vertifleet_testkit::{Size, any_extended_day};
+use vertifleet_testkit::{Size, any_energy_day, any_extended_day};
 
 use super::certificate::Certificate;
-use super::charging_time::Charge;
 use super::money;
 use super::penalty::Penalty;
 use super::prices::Prices;
@@ -57,7 +56,8 @@ fn any_prices(expanded: &TimeExpandedDay, seed: u64) -> Prices {
     };
     let stand = (0..first.stand.len()).map(|at| below(at, 20_000_000)).collect();
     let flight = first.flight.iter().enumerate().map(|(at, &most)| below(at, most)).collect();
-    Prices::checked(expanded, stand, flight).expect("within their limits")
+    let charging = (0..first.charging.len()).map(|at| below(at, 20_000)).collect();
+    Prices::checked(expanded, stand, flight, charging).expect("within their limits")
 }
 
 /// Arbitrary payments for knowing delays.
@@ -111,7 +111,7 @@ fn layer_of(day: &Scenario, expanded: &TimeExpandedDay, aircraft: AircraftIx) ->
 /// Plays a day by several rules, and checks each aircraft, and all of them together, against the
 /// proof.
 fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
-    let mut expanded = TimeExpandedDay::of(day, &[], step_s, Charge::IGNORED).expect("a small day");
+    let mut expanded = TimeExpandedDay::of(day, &[], step_s, 1).expect("a small day");
     let delays = day.disturbances.takeoff_delays.as_ref();
     expanded.penalty = delays.map(|delays| any_penalty(&expanded, delays, mix));
     let prices = any_prices(&expanded, mix);
@@ -201,9 +201,30 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn a_day_that_charges_as_needed_earns_no_more_than_any_prices_prove(
+        number in any::<u32>(), minutes in 1_u32..60, levels in 1_u16..9, mix in any::<u64>()
+    ) {
+        let day = any_energy_day(number.into(), Size { vertiports: 5, fleet: 6, hours: 6 });
+        let expanded = TimeExpandedDay::of(&day, &[], 60 * minutes, levels).expect("a small day");
+        let prices = any_prices(&expanded, mix);
+        let never = Stop::default();
+        let bound = Certificate::new(&expanded).evaluate(&expanded, &prices, &never);
+        let bound = bound.expect("it is not stopped");
+        for trace in traces(&day) {
+            let rows = trace.rows.iter().filter(|row| row.to != row.from);
+            let profit: i128 = rows.map(|row| i128::from(money::down(row.profit_usd()))).sum();
+            prop_assert!(profit <= bound, "{profit} is earned, the bound is {bound}");
+        }
+    }
+}
+
 /// The bound that arbitrary prices prove for a day, micro-dollars.
 fn proven(day: &Scenario, step_s: u32, mix: u64) -> (i128, Prices) {
-    let expanded = TimeExpandedDay::of(day, &[], step_s, Charge::IGNORED).expect("a small day");
+    let expanded = TimeExpandedDay::of(day, &[], step_s, 1).expect("a small day");
     let prices = any_prices(&expanded, mix);
     let never = Stop::default();
     let micro_usd = Certificate::new(&expanded).evaluate(&expanded, &prices, &never);
@@ -235,7 +256,7 @@ proptest! {
     ) {
         let day = any_extended_day(number.into(), Size { vertiports: 6, fleet: 12, hours: 6 });
         let (longer_proves, prices) = proven(&day, 900, mix);
-        let (longer, shorter) = (TimeExpandedDay::of(&day, &[], 900, Charge::IGNORED), TimeExpandedDay::of(&day, &[], 180, Charge::IGNORED));
+        let (longer, shorter) = (TimeExpandedDay::of(&day, &[], 900, 1), TimeExpandedDay::of(&day, &[], 180, 1));
         let (longer, shorter) = (longer.expect("a small day"), shorter.expect("a small day"));
         let mut same = Prices::first(&shorter);
         same.flight.clone_from(&prices.flight);

@@ -4,9 +4,10 @@
 //! as time allows. They prove nothing. Once an aircraft has been planned, its stands and passengers
 //! are gone, and a few more steps of the search find the prices of the rest.
 
+use std::ops::Range;
+
 use vertifleet_core::{AircraftIx, Scenario, Stop, VertiportIx};
 
-use super::charging_time::Charge;
 use super::descent::{Bundle, Descent};
 use super::itinerary::Itinerary;
 use super::ladder::{CUTS, Cut, TICK_S};
@@ -39,7 +40,7 @@ pub(crate) struct Rest {
     groups: Groups,
     /// The group of each aircraft.
     group_of: Vec<usize>,
-    /// The number of groups of aircraft. Those of passengers follow.
+    /// The number of groups of aircraft. Those of passengers follow, and then those of batteries.
     aircraft_groups: usize,
 }
 
@@ -59,8 +60,7 @@ impl Rest {
             if !allows(steps, descent.steps) {
                 break;
             }
-            let Ok(day) = TimeExpandedDay::of(scenario, &[], step.seconds(), Charge::IGNORED)
-            else {
+            let Ok(day) = TimeExpandedDay::of(scenario, &[], step.seconds(), 1) else {
                 break;
             };
             let day = day.on_coarse_clock(TICK_S);
@@ -107,6 +107,7 @@ impl Rest {
         }
         let group = self.group_of[aircraft.at()];
         self.groups.leave(group);
+        self.stores_of(group).for_each(|store| self.groups.leave(store));
         self.start_of(group).count -= 1;
     }
 
@@ -120,7 +121,20 @@ impl Rest {
         }
         let group = self.group_of[aircraft.at()];
         self.groups.come_back(group);
+        self.stores_of(group).for_each(|store| self.groups.come_back(store));
         self.start_of(group).count += 1;
+    }
+
+    /// The groups of the batteries of the type of a group of aircraft.
+    fn stores_of(&self, group: usize) -> Range<usize> {
+        let mut groups = 0;
+        let layer = self.day.layers.iter().find(|layer| {
+            groups += layer.starts.len();
+            group < groups
+        });
+        let stores = self.day.charging.stores_of(layer.expect("a group of aircraft").kind);
+        let first = self.aircraft_groups + self.day.market.blocks_that_choose().count();
+        first + stores.start..first + stores.end
     }
 
     fn start_of(&mut self, group: usize) -> &mut Start {

@@ -6,14 +6,15 @@
 //! of a flight depends on the slice in which it begins, never on the second within it.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use vertifleet_core::{
     AircraftIx, Charging, ClosedTimes, Scenario, Time, TypeIx, Vertiport, VertiportIx,
 };
-use vertifleet_sim::{Leg, Legs, first_decision};
+use vertifleet_sim::{Legs, first_decision};
 
 use super::charge_levels::{ChargeLevels, Charged, Level};
-use super::charging_time::{Charge, ChargingTime};
+use super::charging_time::{ChargingTime, Use};
 use super::market::{Market, Part, compact};
 use super::money;
 use super::penalty::Penalty;
@@ -42,24 +43,10 @@ pub(super) struct Flight {
 
 /// A flight between two vertiports that is decided at a level of charge.
 #[derive(Clone, Copy)]
-struct Hop<'a> {
+struct Hop {
     layer: usize,
-    leg: &'a Leg,
     pair: (VertiportIx, VertiportIx),
     level: Level,
-}
-
-/// The charge of aircraft on a day that charges as needed.
-struct ChargingDay<'a> {
-    levels: ChargeLevels<'a>,
-    time: ChargingTime<'a>,
-}
-
-impl<'a> ChargingDay<'a> {
-    fn of(scenario: &'a Scenario, legs: &'a Legs, Charge { price, levels }: Charge) -> Self {
-        let levels = ChargeLevels::of(scenario, legs, levels);
-        Self { levels, time: ChargingTime::of(scenario, legs, price) }
-    }
 }
 
 /// The aircraft of one type, either those with outages or those without.
@@ -85,8 +72,8 @@ pub(super) struct Start {
     pub(super) level: Level,
     /// Seconds from the first take-off time until they are ready for their first decision.
     pub(super) ready_s: u32,
-    /// What each is given for its charging time, micro-dollars.
-    pub(super) gift: i64,
+    /// The seconds of charging above the reserve that each has.
+    pub(super) charged_s: i64,
     /// Their number.
     pub(super) count: u32,
 }
@@ -112,20 +99,24 @@ pub(super) struct TimeExpandedDay {
     /// The shortest time from a take-off to the next one, or the duration of a hold if that is
     /// shorter; seconds, at least 1.
     pub(super) shortest_s: u32,
-    /// How the charge of aircraft is relaxed.
-    pub(super) charge: Charge,
+    /// Number of levels of charge, at least 1; 1 on days that charge to full.
+    pub(super) levels: u16,
+    /// The charging time of aircraft.
+    pub(super) charging: ChargingTime,
     /// By layer, vertiport, then level: the level after a hold.
     holds: Vec<Level>,
     /// The payments of aircraft for knowing delays, for a bound without foresight.
     pub(super) penalty: Option<Penalty>,
     flights: Vec<Flight>,
+    /// What each flight uses of the charging time; empty on days that charge to full.
+    uses: Vec<Use>,
     /// Position in `flights` of the first flight from each place, by slice, layer, place.
     offsets: Vec<usize>,
 }
 
 impl TimeExpandedDay {
-    /// Lays out a day in slices of at most `step_s` seconds, with the charge of aircraft relaxed in
-    /// a way, which only matters on days that charge as needed. Aircraft decide first when they are
+    /// Lays out a day in slices of at most `step_s` seconds, with a number of levels of charge,
+    /// which only matters on days that charge as needed. Aircraft decide first when they are
     /// `ready`; those past its end when the day lets them.
     ///
     /// # Errors
@@ -134,14 +125,16 @@ impl TimeExpandedDay {
         scenario: &Scenario,
         ready: &[Time],
         step_s: u32,
-        charge: Charge,
+        levels: u16,
     ) -> Result<Self, Error> {
         let as_needed = scenario.operations.charging == Charging::AsNeeded;
-        let charge = if as_needed { charge } else { Charge::IGNORED };
-        Self::fits(scenario, step_s, charge)?;
+        let levels = if as_needed { levels } else { 1 };
+        Self::fits(scenario, step_s, levels)?;
         let legs = Legs::of(scenario);
-        let charging = as_needed.then(|| ChargingDay::of(scenario, &legs, charge));
-        let (layers, group_of) = layers(scenario, ready, charging.as_ref());
+        let of_charge = as_needed.then(|| ChargeLevels::of(scenario, &legs, levels));
+        let of_charge = of_charge.as_ref();
+        let charging = ChargingTime::of(scenario);
+        let (layers, group_of) = layers(scenario, ready, of_charge.map(|it| (it, &charging)));
         let slices = Slices::of(scenario, step_s);
         let mut day = Self {
             stands: scenario.vertiports.iter().map(room).collect::<Vec<_>>().repeat(slices.len()),
@@ -150,16 +143,18 @@ impl TimeExpandedDay {
             fixed_cost: fixed_cost(scenario),
             hold_s: scenario.operations.hold_s,
             shortest_s: scenario.operations.hold_s,
-            charge,
-            holds: holds(charging.as_ref(), &layers, scenario.vertiports.len()),
+            levels,
+            charging,
+            holds: holds(of_charge, &layers, scenario.vertiports.len()),
             penalty: None,
             flights: Vec::new(),
+            uses: Vec::new(),
             offsets: vec![0],
             slices,
             layers,
             group_of,
         };
-        day.add_flights(scenario, &legs, charging.as_ref());
+        day.add_flights(scenario, &legs, of_charge);
         day.market.find_choosing_blocks();
         Ok(day)
     }
@@ -168,11 +163,11 @@ impl TimeExpandedDay {
     ///
     /// # Errors
     /// [`Error::TooManyFlights`] if the day is too large.
-    pub(super) fn fits(scenario: &Scenario, step_s: u32, charge: Charge) -> Result<(), Error> {
+    pub(super) fn fits(scenario: &Scenario, step_s: u32, levels: u16) -> Result<(), Error> {
         let (layers, _) = layers(scenario, &[], None);
         let slices = Slices::of(scenario, step_s);
         let size = scenario.vertiports.len();
-        let levels = usize::from(charge.levels);
+        let levels = usize::from(levels);
         let flights = slices.len() * pairs(&Legs::of(scenario), &layers, size) * levels;
         let places = layers.len() * size * levels * slices.day_s() as usize;
         if flights <= MOST_FLIGHTS && places <= MOST_PLACES {
@@ -205,12 +200,7 @@ impl TimeExpandedDay {
         self
     }
 
-    fn add_flights(
-        &mut self,
-        scenario: &Scenario,
-        legs: &Legs,
-        charging: Option<&ChargingDay<'_>>,
-    ) {
+    fn add_flights(&mut self, scenario: &Scenario, legs: &Legs, levels: Option<&ChargeLevels<'_>>) {
         let size = self.size();
         let closed = ClosedTimes::of(&scenario.disturbances.closures, size);
         for slice in 0..self.slices.len() {
@@ -223,12 +213,11 @@ impl TimeExpandedDay {
                     let open = legs.within_range(kind, from);
                     let is_open =
                         |to: &VertiportIx| !closed.is_closed_throughout(from, *to, first, last);
-                    for level in (0..).take(self.charge.levels.into()) {
+                    for level in (0..).take(self.levels.into()) {
                         for to in open.iter().filter(is_open) {
                             let cell = first_cell + from.at() * size + to.at();
-                            let leg = legs.leg(kind, from, to);
-                            let hop = Hop { layer, leg, pair: (from, to), level };
-                            self.add_flight(scenario, (slice, cell), hop, charging);
+                            let hop = Hop { layer, pair: (from, to), level };
+                            self.add_flight((scenario, legs), (slice, cell), hop, levels);
                         }
                         self.offsets.push(self.flights.len());
                     }
@@ -241,18 +230,18 @@ impl TimeExpandedDay {
     /// operations is left out.
     fn add_flight(
         &mut self,
-        scenario: &Scenario,
+        (scenario, legs): (&Scenario, &Legs),
         (slice, cell): (usize, usize),
-        hop: Hop<'_>,
-        charging: Option<&ChargingDay<'_>>,
+        Hop { layer, pair: (from, to), level }: Hop,
+        levels: Option<&ChargeLevels<'_>>,
     ) {
-        let Hop { layer, leg, pair: (from, to), level } = hop;
         let Layer { kind, has_outages, .. } = self.layers[layer];
+        let leg = legs.leg(kind, from, to);
         let seats = scenario.aircraft_types[kind.at()].seats;
         let (first_s, last_s) = (self.slices.start_s(slice), self.slices.last_s(slice));
         let late_s = delay_s(scenario, from, first_s);
-        let (mut charged, mut takeoff_s, mut pays) = (Charged { wait_s: 0, level: 0 }, last_s, 0);
-        if let Some(ChargingDay { levels, time }) = charging {
+        let (mut charged, mut takeoff_s) = (Charged { wait_s: 0, level: 0 }, last_s);
+        if let Some(levels) = levels {
             let end_s = scenario.operations.end.seconds();
             charged = levels.flight(kind, (from, to), level, late_s);
             if has_outages {
@@ -262,9 +251,11 @@ impl TimeExpandedDay {
                 return;
             }
             // An aircraft with less charge than its level waits for longer.
-            let longest_s = time.longest_wait_s(kind, (from, to));
+            let needed_mwh = scenario.aircraft_types[kind.at()].needed_mwh(leg.energy_kwh);
+            let longest_s = self.charging.longest_wait_s(legs.rate(kind, from), kind, needed_mwh);
             takeoff_s = last_s.max(end_s.min(last_s + longest_s));
-            pays = time.payment(kind, leg, takeoff_s + late_s);
+            let leaves_s = (first_s + charged.wait_s + late_s, takeoff_s + late_s);
+            self.uses.push(self.charging.of_flight(kind, leg, leaves_s));
         }
         let flight_s = leg.flight_s + late_s;
         let arrivals_s = (first_s + charged.wait_s + flight_s, takeoff_s + flight_s);
@@ -278,18 +269,9 @@ impl TimeExpandedDay {
             level: charged.level,
             block_s: charged.wait_s + leg.block_s() + late_s,
             sold_at: compact(sold_at),
-            cost: money::down(cost_usd) + pays,
+            cost: money::down(cost_usd),
         });
         self.shortest_s = self.shortest_s.min(leg.block_s());
-    }
-
-    /// A price of a second of charging, micro-dollars, at which no flight earns anything.
-    pub(super) fn dearest_second(&self) -> f64 {
-        let earns = |flight: &Flight| {
-            let usd = self.market.most(flight.sold_at as usize) - flight.cost;
-            usd as f64 / f64::from(flight.block_s.max(1))
-        };
-        self.flights.iter().map(earns).fold(0.0, f64::max)
     }
 
     /// Number of vertiports.
@@ -299,24 +281,24 @@ impl TimeExpandedDay {
 
     /// Number of places: vertiports, each with every level of charge.
     pub(super) fn places(&self) -> usize {
-        self.vertiports * usize::from(self.charge.levels)
+        self.vertiports * usize::from(self.levels)
     }
 
     /// The place of aircraft at a vertiport with a level of charge.
     #[inline]
     pub(super) fn place(&self, at: usize, level: Level) -> usize {
-        at * usize::from(self.charge.levels) + usize::from(level)
+        at * usize::from(self.levels) + usize::from(level)
     }
 
     /// The vertiport of a place.
     #[inline]
     pub(super) fn vertiport(&self, place: usize) -> usize {
-        place / usize::from(self.charge.levels)
+        place / usize::from(self.levels)
     }
 
     /// The highest level of charge.
     pub(super) fn full(&self) -> Level {
-        self.charge.levels - 1
+        self.levels - 1
     }
 
     /// The place of an aircraft of a layer after a hold.
@@ -328,16 +310,28 @@ impl TimeExpandedDay {
         self.place(self.vertiport(place), self.holds[layer * self.places() + place])
     }
 
+    /// The positions among all flights of those that aircraft of a layer may begin at a place in a
+    /// slice.
+    #[inline]
+    pub(super) fn positions(&self, slice: usize, layer: usize, place: usize) -> Range<usize> {
+        let at = (slice * self.layers.len() + layer) * self.places() + place;
+        self.offsets[at]..self.offsets[at + 1]
+    }
+
     /// The flights that aircraft of a layer may begin at a place in a slice.
     pub(super) fn flights(&self, slice: usize, layer: usize, place: usize) -> &[Flight] {
-        let at = (slice * self.layers.len() + layer) * self.places() + place;
-        &self.flights[self.offsets[at]..self.offsets[at + 1]]
+        &self.flights[self.positions(slice, layer, place)]
+    }
+
+    /// What each flight uses of the charging time; nothing on days that charge to full.
+    pub(super) fn uses(&self) -> &[Use] {
+        &self.uses
     }
 }
 
 /// The level of each place after a hold, by layer; empty on a day that charges to full.
-fn holds(charging: Option<&ChargingDay<'_>>, layers: &[Layer], size: usize) -> Vec<Level> {
-    let Some(ChargingDay { levels, .. }) = charging else { return Vec::new() };
+fn holds(levels: Option<&ChargeLevels<'_>>, layers: &[Layer], size: usize) -> Vec<Level> {
+    let Some(levels) = levels else { return Vec::new() };
     let of_layer = |layer: &Layer| {
         let kind = layer.kind;
         let of_vertiport =
@@ -358,7 +352,7 @@ fn room(vertiport: &Vertiport) -> u32 {
 fn layers(
     scenario: &Scenario,
     ready: &[Time],
-    charging: Option<&ChargingDay<'_>>,
+    charging: Option<(&ChargeLevels<'_>, &ChargingTime)>,
 ) -> (Vec<Layer>, Vec<usize>) {
     let has_outage = has_outage(scenario);
     // An aircraft that waits for charge decides at other times than on its way without the wait.
@@ -369,9 +363,11 @@ fn layers(
         let ready = ready.get(position).copied().unwrap_or_else(first);
         let ready_s = ready.since(scenario.operations.start);
         let (kind, charge_kwh) = (aircraft.kind, scenario.start_charge_kwh(aircraft));
-        let level = charging.map_or(0, |day| day.levels.at_start(kind, charge_kwh));
-        let gift = charging.map_or(0, |day| day.time.gift(kind, charge_kwh));
-        (aircraft.at.at(), level, ready_s, gift)
+        let charged = charging.map(|(levels, time)| {
+            (levels.at_start(kind, charge_kwh), time.at_start_s(kind, charge_kwh))
+        });
+        let (level, charged_s) = charged.unwrap_or_default();
+        (aircraft.at.at(), level, ready_s, charged_s)
     };
     let (mut layers, mut group_of) = (Vec::new(), vec![0; scenario.aircraft.len()]);
     let mut groups = 0;
@@ -384,9 +380,9 @@ fn layers(
                 }
             }
             let mut starts = Vec::with_capacity(alike.len());
-            for ((at, level, ready_s, gift), positions) in alike {
+            for ((at, level, ready_s, charged_s), positions) in alike {
                 let count = u32::try_from(positions.len()).expect("at most 10,000 aircraft");
-                starts.push(Start { at, level, ready_s, gift, count });
+                starts.push(Start { at, level, ready_s, charged_s, count });
                 for position in positions {
                     group_of[position] = groups;
                 }

@@ -7,7 +7,6 @@
 use vertifleet_core::{Network, Scenario, Stop, TakeoffDelays};
 
 use super::certificate::Certificate;
-use super::charging_time::Charge;
 use super::ladder::{Relaxed, search};
 use super::penalty::Penalty;
 use super::penalty::worths::Expected;
@@ -55,7 +54,7 @@ pub(super) fn bound_with_penalty(
 ) -> Result<Option<Bound>, Error> {
     let expected = expected_day(scenario, delays, probabilities);
     let Some(bound) = upper_bound_unless(stopped, &expected, step)? else { return Ok(None) };
-    let day = TimeExpandedDay::of(&expected, &[], bound.step_s(), Charge::IGNORED)?;
+    let day = TimeExpandedDay::of(&expected, &[], bound.step_s(), 1)?;
     let mut certificate = Certificate::new(&day);
     if certificate.evaluate(&day, &bound.prices, stopped).is_none() {
         return Ok(None);

@@ -1,6 +1,8 @@
 //! What is in the battery of an aircraft on days that charge as needed, as the simulator has it.
 
-use vertifleet_core::{AircraftIx, Battery, Charging, Scenario, Time, TypeIx, VertiportIx, whole_mwh};
+use vertifleet_core::{
+    AircraftIx, Battery, Charging, Scenario, Time, TypeIx, VertiportIx, whole_mwh,
+};
 use vertifleet_sim::{Landed, Legs};
 
 /// The batteries of a day that charges as needed.

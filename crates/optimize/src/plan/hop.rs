@@ -23,4 +23,3 @@ pub(super) struct Landing {
     pub(super) ready_s: u32,
     pub(super) landed: Landed,
 }
-

@@ -37,7 +37,9 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         shown.push(format!("{of_it:?}"));
     }
     if view.charges_as_needed() {
-        shown.push(format!("{}", view.charge_mwh_at(decision)));
+        let Decision { aircraft, time, .. } = *decision;
+        let (mwh, full_s) = (view.charge_mwh_at(decision), view.to_full_s(aircraft, time));
+        shown.push(format!("{mwh} {full_s}"));
     }
     for to in VertiportIx::all(view.vertiports()) {
         shown.push(format!("{:?}", view.outcome(decision, to)));
