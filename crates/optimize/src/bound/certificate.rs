@@ -75,10 +75,19 @@ impl Certificate {
         let mut within_slot = self.within_slot.chunks_exact_mut(of_layer);
         let layers = self.worth_less_paid.chunks_exact_mut(of_layer);
         for (layer, worths) in layers.enumerate() {
-            let (paid, pays, stride) = (&self.paid[..], &self.pays[..], self.stride);
+            let (paid, charging, stride) = (&self.paid[..], &self.pays[..], self.stride);
             let within_slot = within_slot.next().unwrap_or_default();
-            let pass =
-                LayerPass { day, prices, paid, pays, layer, stride, worths, within_slot, stopped };
+            let pass = LayerPass {
+                day,
+                prices,
+                paid,
+                charging,
+                layer,
+                stride,
+                worths,
+                within_slot,
+                stopped,
+            };
             if !self.arch.dispatch(pass) {
                 return None;
             }
@@ -171,7 +180,8 @@ struct LayerPass<'a> {
     day: &'a TimeExpandedDay,
     prices: &'a Prices,
     paid: &'a [i64],
-    pays: &'a [i64],
+    /// What each flight pays for its charging; empty on days that charge to full.
+    charging: &'a [i64],
     layer: usize,
     stride: usize,
     worths: &'a mut [i64],
@@ -236,7 +246,7 @@ impl LayerPass<'_> {
         let held = self.day.held(self.layer, place);
         self.raise(best, held, begin + self.day.hold_s as usize, past_slot, 0);
         let flights = self.day.flights(slice, self.layer, place);
-        let pays = self.pays.get(self.day.positions(slice, self.layer, place));
+        let pays = self.charging.get(self.day.positions(slice, self.layer, place));
         let mut pays = pays.unwrap_or_default().iter();
         for flight in flights {
             let to = self.day.place(flight.to.at(), flight.level);

@@ -63,7 +63,7 @@ impl<'a> Bands<'a> {
         (least_s, most_s): (f64, f64),
     ) -> Arrivals {
         let ends_s = [least_s - ROUNDING_S, most_s + ROUNDING_S].map(|to_full_s| to_full_s as f32);
-        let [first_s, last_s] = ends_s.map(|to_full_s| wait_s(to_full_s - flight.most_s));
+        let waits_s = ends_s.map(|to_full_s| wait_s(to_full_s - flight.most_s));
         let [fullest_s, emptiest_s] =
             ends_s.map(|to_full_s| f64::from(flight.when_ready_s(to_full_s.min(flight.most_s))));
         let (fullest_s, emptiest_s) = (fullest_s - ROUNDING_S, emptiest_s + ROUNDING_S);
@@ -72,11 +72,11 @@ impl<'a> Bands<'a> {
             let (from_s, until_s) = (from_s.max(fullest_s), until_s.min(emptiest_s));
             if from_s <= until_s {
                 let moved_s = |base_s: u32, by_s: f64| (f64::from(base_s) + by_s).max(0.0) as u32;
-                let earliest_s = moved_s(first_s + block_s, from_s - level_s - 1.0);
-                let latest_s = moved_s(last_s + block_s, until_s - level_s + 1.0);
+                let earliest_s = moved_s(waits_s[0] + block_s, from_s - level_s - 1.0);
+                let latest_s = moved_s(waits_s[1] + block_s, until_s - level_s + 1.0);
                 ready.push((level, earliest_s, latest_s));
             }
         }
-        Arrivals { takeoff_s: (first_s, last_s), ready }
+        Arrivals { takeoff_s: waits_s.into(), ready }
     }
 }

@@ -44,7 +44,7 @@ impl Nearest {
     fn of(levels_s: &[f64; LEVELS], full_s: f64) -> Self {
         let mut until_s = [f64::INFINITY; LEVELS];
         for (until_s, pair) in until_s.iter_mut().zip(levels_s.windows(2)) {
-            *until_s = (pair[0] + pair[1]) / 2.0;
+            *until_s = f64::midpoint(pair[0], pair[1]);
         }
         let mut nearest =
             Self { parts_a_second: PARTS as f64 / full_s, first: [0; PARTS], until_s };
@@ -105,13 +105,9 @@ impl Levels {
         kind: TypeIx,
         at: VertiportIx,
     ) -> impl Iterator<Item = (f64, (f64, f64))> {
-        let levels_s = self.to_full_s(kind, at);
-        let middle_s = |level: usize| (levels_s[level] + levels_s[level + 1]) / 2.0;
-        levels_s.iter().enumerate().map(move |(level, &level_s)| {
-            let from_s = if level == 0 { f64::NEG_INFINITY } else { middle_s(level - 1) };
-            let until_s = if level + 1 < levels_s.len() { middle_s(level) } else { f64::INFINITY };
-            (level_s, (from_s, until_s))
-        })
+        let until_s = self.nearest[kind.at() * self.vertiports + at.at()].until_s;
+        let from_s = std::iter::once(f64::NEG_INFINITY).chain(until_s);
+        self.to_full_s(kind, at).iter().copied().zip(from_s.zip(until_s))
     }
 
     pub(super) fn of(view: View<'_>) -> Self {

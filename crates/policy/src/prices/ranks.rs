@@ -32,6 +32,22 @@ struct Most {
     to: VertiportIx,
 }
 
+impl Most {
+    #[expect(clippy::cast_possible_truncation, reason = "rounded to the safe side afterwards")]
+    fn of(
+        (fares, values): (&Fares<'_>, &ValueTable),
+        kind: TypeIx,
+        (from, to): (VertiportIx, VertiportIx),
+        slot: usize,
+        Arrivals { takeoff_s, ready }: &Arrivals,
+    ) -> Self {
+        let (profit_usd, margin_usd) = fares.most_usd(kind, (from, to), slot, *takeoff_s);
+        let follows = ready.iter().map(|&ready| values.most_usd(kind, to, slot, ready));
+        let usd = profit_usd + follows.fold(f64::NEG_INFINITY, f64::max) + ROUNDING_USD;
+        Self { usd: (usd as f32).next_up(), less_usd: (margin_usd as f32).next_down().max(0.0), to }
+    }
+}
+
 /// The destinations within range, for each type, vertiport, slot and band of charge, from the
 /// highest bound on.
 #[derive(Debug, Clone)]
@@ -48,7 +64,6 @@ pub(super) struct Ranks {
 
 impl Ranks {
     /// Ranks the destinations of decisions from one time to another.
-    #[expect(clippy::cast_possible_truncation, reason = "rounded to the safe side afterwards")]
     pub(super) fn of(
         view: View<'_>,
         clock: &Clock,
@@ -72,19 +87,7 @@ impl Ranks {
                     for band in 0..charging.0.bands() {
                         let begin = all.len();
                         all.extend(arrivals.iter().map(|(to, arrivals)| {
-                            let Arrivals { takeoff_s, ready } = &arrivals[band];
-                            let pair = (from, *to);
-                            let (profit_usd, margin_usd) =
-                                fares.most_usd(kind, pair, slot, *takeoff_s);
-                            let worths_usd =
-                                ready.iter().map(|&ready| values.most_usd(kind, *to, slot, ready));
-                            let worth_usd = worths_usd.fold(f64::NEG_INFINITY, f64::max);
-                            let usd = profit_usd + worth_usd + ROUNDING_USD;
-                            Most {
-                                usd: (usd as f32).next_up(),
-                                less_usd: (margin_usd as f32).next_down().max(0.0),
-                                to: *to,
-                            }
+                            Most::of((&fares, values), kind, (from, *to), slot, &arrivals[band])
                         }));
                         all[begin..].sort_unstable_by(|one, other| other.usd.total_cmp(&one.usd));
                     }
