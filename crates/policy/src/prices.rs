@@ -191,7 +191,8 @@ impl DayPrices {
             return self.worth_usd(kind, at, ready);
         }
         let (levels, _) = self.relaxation.charging();
-        let ready = levels.nearest((kind, at), ready.seconds(), view.to_full_s(aircraft, ready));
+        let levels = &levels.of_kind(kind)[at.at()];
+        let ready = levels.nearest(ready.seconds(), view.to_full_s(aircraft, ready));
         let ready = ready.no_sooner_than(self.made_at.seconds());
         self.relaxation.kept_values().worth_at_level_usd(kind, at, ready)
     }

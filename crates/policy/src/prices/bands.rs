@@ -46,7 +46,7 @@ impl<'a> Bands<'a> {
             return vec![Arrivals { takeoff_s: (0, 0), ready: vec![(0, block_s, block_s)] }];
         }
         let flight = &self.flights.from(kind, from)[to.at()];
-        let edges_s = self.levels.to_full_s(kind, from).iter().copied();
+        let edges_s = self.levels.of_kind(kind)[from.at()].levels_s().into_iter();
         let least_s = std::iter::once(0.0).chain(edges_s.clone());
         let most_s = edges_s.chain([self.view.charge_rate(kind, from).full_s()]);
         let bands = least_s.zip(most_s);
@@ -68,7 +68,9 @@ impl<'a> Bands<'a> {
             ends_s.map(|to_full_s| f64::from(flight.when_ready_s(to_full_s.min(flight.most_s))));
         let (fullest_s, emptiest_s) = (fullest_s - ROUNDING_S, emptiest_s + ROUNDING_S);
         let mut ready = Vec::new();
-        for (level, (level_s, (from_s, until_s))) in (0..).zip(self.levels.cells_s(kind, to)) {
+        for (level, (level_s, (from_s, until_s))) in
+            (0..).zip(self.levels.of_kind(kind)[to.at()].cells_s())
+        {
             let (from_s, until_s) = (from_s.max(fullest_s), until_s.min(emptiest_s));
             if from_s <= until_s {
                 let moved_s = |base_s: u32, by_s: f64| (f64::from(base_s) + by_s).max(0.0) as u32;

@@ -1,12 +1,12 @@
 //! The worth of the choices of one decision at given prices: what is the same for all of them is
 //! looked up once.
 
-use vertifleet_core::{Time, TypeIx, VertiportIx};
+use vertifleet_core::{Time, VertiportIx};
 use vertifleet_sim::{Decision, Departures, View};
 
 use super::PricedChoice;
 use super::charged_flights::{ChargedFlight, ChargedFlights};
-use super::levels::{Levels, ReadyAt};
+use super::levels::{Levels, LevelsAt, ReadyAt};
 use super::values::WorthsFrom;
 
 /// The choices of a decision.
@@ -26,14 +26,14 @@ pub struct Choices<'a> {
 /// The charge of the aircraft of a decision, and what choices do to it.
 #[derive(Debug, Clone, Copy)]
 struct Charge<'a> {
-    kind: TypeIx,
     /// Seconds to a full battery.
     to_full_s: f32,
     /// By destination.
     flights: &'a [ChargedFlight],
     /// The aircraft after a hold.
     held: ReadyAt,
-    levels: &'a Levels,
+    /// By vertiport.
+    levels: &'a [LevelsAt],
 }
 
 impl<'a> Charge<'a> {
@@ -46,12 +46,13 @@ impl<'a> Charge<'a> {
     ) -> Self {
         let Decision { aircraft, at, time, .. } = *decision;
         let kind = view.kind(aircraft);
+        let levels = levels.of_kind(kind);
         let to_full_s = view.to_full_s(aircraft, time);
         let (hold_s, ready_s) = (f64::from(view.hold_s()), time.seconds() + view.hold_s());
-        let held = levels.nearest((kind, at), ready_s, (to_full_s - hold_s).max(0.0));
+        let held = levels[at.at()].nearest(ready_s, (to_full_s - hold_s).max(0.0));
         let held = held.no_sooner_than(time.seconds());
         let flights = flights.from(kind, at);
-        Self { kind, to_full_s: to_full_s as f32, flights, held, levels }
+        Self { to_full_s: to_full_s as f32, flights, held, levels }
     }
 }
 
@@ -104,7 +105,6 @@ impl<'a> Choices<'a> {
     }
 
     /// The same on a day that charges as needed.
-    #[cold]
     #[inline(never)]
     fn worth_by_charge_usd(&self, charge: &Charge<'_>, to: VertiportIx) -> f64 {
         if to == self.own {
@@ -114,7 +114,7 @@ impl<'a> Choices<'a> {
         let wait_s = wait_s(charge.to_full_s - flight.most_s);
         let ready_s = self.time_s + wait_s + self.departures.block_s(to);
         let to_full_s = flight.when_ready_s(charge.to_full_s.min(flight.most_s));
-        let ready = charge.levels.nearest((charge.kind, to), ready_s, to_full_s.into());
+        let ready = charge.levels[to.at()].nearest(ready_s, to_full_s.into());
         let follows_usd = self.worths.at_level_usd(to, ready.no_sooner_than(self.time_s));
         let takeoff = Time::from_seconds(self.time_s + wait_s);
         self.departures.profit_from_usd(takeoff, to, self.waiting[to.at()]) + follows_usd
@@ -129,9 +129,9 @@ impl<'a> Choices<'a> {
     /// The band of the aircraft's charge.
     #[inline]
     pub(super) fn band(&self) -> usize {
-        self.charge.as_ref().map_or(0, |charge| {
-            charge.levels.band((charge.kind, self.own), charge.to_full_s.into())
-        })
+        self.charge
+            .as_ref()
+            .map_or(0, |charge| charge.levels[self.own.at()].band(charge.to_full_s.into()))
     }
 
     /// The number of seats that stay empty on a flight.

@@ -34,7 +34,7 @@ impl Fleet {
             let mut ready = ReadyAt { level: 0, time_s: view.ready_at(aircraft).seconds() };
             if view.charges_as_needed() {
                 let to_full_s = view.to_full_s(aircraft, view.ready_at(aircraft));
-                ready = levels.nearest((kind, place), ready.time_s, to_full_s);
+                ready = levels.of_kind(kind)[place.at()].nearest(ready.time_s, to_full_s);
                 ready = ready.no_sooner_than(now_s);
             }
             Ready { kind, place, at_s: ready.time_s, level: ready.level }

@@ -314,7 +314,7 @@ fn ready_after(
     let wait_s = here.needed_s(here.battery(charge_mwh), here.need(needed_mwh));
     let landed_mwh = charge_mwh.max(needed_mwh) - whole_mwh(leg.energy_kwh);
     let to_full_s = there.to_full_s(there.battery(landed_mwh), leg.ground_s);
-    let ready = levels.nearest((kind, to), wait_s + leg.block_s(), to_full_s);
+    let ready = levels.of_kind(kind)[to.at()].nearest(wait_s + leg.block_s(), to_full_s);
     // It may not decide again at once, for ever.
     (wait_s, ready.no_sooner_than(SLOT_S))
 }
@@ -333,7 +333,7 @@ pub(super) fn ready_after_hold(
     }
     let rate = view.charge_rate(kind, at);
     let to_full_s = rate.to_full_s(rate.battery(levels.charge_mwh(kind, level)), hold_s);
-    levels.nearest((kind, at), hold_s, to_full_s).no_sooner_than(SLOT_S)
+    levels.of_kind(kind)[at.at()].nearest(hold_s, to_full_s).no_sooner_than(SLOT_S)
 }
 
 /// Price of the energy of flights of a given duration that take off in a period, dollars per kWh:

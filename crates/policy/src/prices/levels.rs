@@ -20,52 +20,25 @@ pub(super) struct Levels {
     vertiports: usize,
     /// By type, then level: the charge, mWh.
     charge_mwh: Vec<u64>,
-    /// By type, vertiport, then level: seconds from there to a full battery.
-    to_full_s: Vec<f64>,
-    /// By type, then vertiport.
-    nearest: Vec<Nearest>,
+    /// By type, then vertiport; empty on days that charge to full.
+    all: Vec<LevelsAt>,
 }
 
-/// Number of parts of the time in which a battery charges, of each of which the first level is
-/// kept: levels are looked up more often than anything else.
-const PARTS: usize = 32;
-
-/// The levels that are nearest to some numbers of seconds to a full battery.
+/// The levels of a type at a vertiport.
 #[derive(Debug, Clone)]
-struct Nearest {
-    parts_a_second: f64,
-    /// The level nearest to the beginning of each part.
-    first: [u8; PARTS],
-    /// Up to how many seconds each level is the nearest.
+pub(super) struct LevelsAt {
+    /// Seconds from each level to a full battery, in rising order.
+    levels_s: [f64; LEVELS],
+    /// Up to how many seconds to a full battery each level is the nearest.
     until_s: [f64; LEVELS],
+    /// The level nearest to the beginning of each part of the time in which a battery charges.
+    first: [u8; PARTS],
+    parts_a_second: f64,
 }
 
-impl Nearest {
-    fn of(levels_s: &[f64; LEVELS], full_s: f64) -> Self {
-        let mut until_s = [f64::INFINITY; LEVELS];
-        for (until_s, pair) in until_s.iter_mut().zip(levels_s.windows(2)) {
-            *until_s = f64::midpoint(pair[0], pair[1]);
-        }
-        let mut nearest =
-            Self { parts_a_second: PARTS as f64 / full_s, first: [0; PARTS], until_s };
-        for part in 1..PARTS {
-            let level = nearest.level(part as f64 / nearest.parts_a_second);
-            nearest.first[part..].fill(u8::try_from(level).expect("there are few levels"));
-        }
-        nearest
-    }
-
-    #[inline]
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the parts")]
-    fn level(&self, to_full_s: f64) -> usize {
-        let part = ((to_full_s * self.parts_a_second) as usize).min(PARTS - 1);
-        let mut level = usize::from(self.first[part]);
-        while to_full_s > self.until_s[level] {
-            level += 1;
-        }
-        level
-    }
-}
+/// Number of parts of the time in which a battery charges: levels are looked up more often than
+/// anything else.
+const PARTS: usize = 32;
 
 /// The level of an aircraft and when it counts as ready, seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,43 +54,72 @@ impl ReadyAt {
     }
 }
 
+impl LevelsAt {
+    fn of(levels_s: [f64; LEVELS], full_s: f64) -> Self {
+        let mut until_s = [f64::INFINITY; LEVELS];
+        for (until_s, pair) in until_s.iter_mut().zip(levels_s.windows(2)) {
+            *until_s = f64::midpoint(pair[0], pair[1]);
+        }
+        let parts_a_second = PARTS as f64 / full_s;
+        let mut made = Self { levels_s, until_s, first: [0; PARTS], parts_a_second };
+        for part in 1..PARTS {
+            let level = made.level(part as f64 / parts_a_second);
+            made.first[part..].fill(u8::try_from(level).expect("there are few levels"));
+        }
+        made
+    }
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the parts")]
+    fn level(&self, to_full_s: f64) -> usize {
+        let part = ((to_full_s * self.parts_a_second) as usize).min(PARTS - 1);
+        let mut level = usize::from(self.first[part]);
+        while to_full_s > self.until_s[level] {
+            level += 1;
+        }
+        level
+    }
+
+    /// The level nearest to the charge with which an aircraft is ready at a time. A full battery is
+    /// some seconds away from it.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "there are few levels")]
+    pub(super) fn nearest(&self, ready_s: u32, to_full_s: f64) -> ReadyAt {
+        let level = self.level(to_full_s);
+        let time_s = moved_s(ready_s, to_full_s - self.levels_s[level]);
+        ReadyAt { level: level as Level, time_s }
+    }
+
+    /// The band of an aircraft from which a full battery is some seconds away.
+    #[inline]
+    pub(super) fn band(&self, to_full_s: f64) -> usize {
+        self.levels_s.iter().filter(|&&level_s| level_s < to_full_s).count()
+    }
+
+    /// Seconds from each level to a full battery, in rising order.
+    pub(super) fn levels_s(&self) -> [f64; LEVELS] {
+        self.levels_s
+    }
+
+    /// The same, each with the range of seconds to which it is the [nearest](Self::nearest).
+    pub(super) fn cells_s(&self) -> impl Iterator<Item = (f64, (f64, f64))> {
+        let from_s = std::iter::once(f64::NEG_INFINITY).chain(self.until_s);
+        self.levels_s.into_iter().zip(from_s.zip(self.until_s))
+    }
+}
+
 impl Levels {
     /// Number of bands of charge: above the first level, between two levels, and below the last.
     pub(super) fn bands(&self) -> usize {
         if self.count == 1 { 1 } else { self.count + 1 }
     }
 
-    /// The band of an aircraft from which a full battery is some seconds away.
-    #[inline]
-    pub(super) fn band(&self, (kind, at): (TypeIx, VertiportIx), to_full_s: f64) -> usize {
-        self.to_full_s(kind, at).partition_point(|&level_s| level_s < to_full_s)
-    }
-
-    /// Seconds from each level to a full battery, in rising order.
-    #[inline]
-    pub(super) fn to_full_s(&self, kind: TypeIx, at: VertiportIx) -> &[f64] {
-        &self.to_full_s[(kind.at() * self.vertiports + at.at()) * self.count..][..self.count]
-    }
-
-    /// The same, each with the range of seconds to which it is the [nearest](Self::nearest).
-    pub(super) fn cells_s(
-        &self,
-        kind: TypeIx,
-        at: VertiportIx,
-    ) -> impl Iterator<Item = (f64, (f64, f64))> {
-        let until_s = self.nearest[kind.at() * self.vertiports + at.at()].until_s;
-        let from_s = std::iter::once(f64::NEG_INFINITY).chain(until_s);
-        self.to_full_s(kind, at).iter().copied().zip(from_s.zip(until_s))
-    }
-
     pub(super) fn of(view: View<'_>) -> Self {
         let vertiports = view.vertiports();
+        let (mut charge_mwh, mut all) = (Vec::new(), Vec::new());
         if !view.charges_as_needed() {
-            let (charge_mwh, to_full_s, nearest) = (Vec::new(), Vec::new(), Vec::new());
-            return Self { count: 1, vertiports, charge_mwh, to_full_s, nearest };
+            return Self { count: 1, vertiports, charge_mwh, all };
         }
-        let (mut charge_mwh, mut to_full_s) = (Vec::new(), Vec::new());
-        let mut nearest = Vec::new();
         for (at, kind) in view.aircraft_types().iter().enumerate() {
             let usable_kwh = kind.battery_kwh - kind.reserve_kwh;
             let share = |level| 1.0 - level as f64 / (LEVELS - 1) as f64;
@@ -126,12 +128,11 @@ impl Levels {
             for vertiport in VertiportIx::all(vertiports) {
                 let rate = view.charge_rate(TypeIx::new(at), vertiport);
                 let levels_s = levels.map(|mwh| rate.to_full_s(rate.battery(mwh), 0));
-                nearest.push(Nearest::of(&levels_s, rate.full_s()));
-                to_full_s.extend(levels_s);
+                all.push(LevelsAt::of(levels_s, rate.full_s()));
             }
             charge_mwh.extend(levels);
         }
-        Self { count: LEVELS, vertiports, charge_mwh, to_full_s, nearest }
+        Self { count: LEVELS, vertiports, charge_mwh, all }
     }
 
     /// The charge of a level, mWh.
@@ -139,21 +140,10 @@ impl Levels {
         self.charge_mwh[kind.at() * self.count + usize::from(level)]
     }
 
-    /// The level nearest to the charge with which an aircraft is ready at a time. A full battery is
-    /// some seconds away from it.
+    /// The levels of a type by vertiport. For days that charge as needed.
     #[inline]
-    #[expect(clippy::cast_possible_truncation, reason = "there are few levels")]
-    pub(super) fn nearest(
-        &self,
-        (kind, at): (TypeIx, VertiportIx),
-        ready_s: u32,
-        to_full_s: f64,
-    ) -> ReadyAt {
-        let level = self.nearest[kind.at() * self.vertiports + at.at()].level(to_full_s);
-        ReadyAt {
-            level: level as Level,
-            time_s: moved_s(ready_s, to_full_s - self.to_full_s(kind, at)[level]),
-        }
+    pub(super) fn of_kind(&self, kind: TypeIx) -> &[LevelsAt] {
+        &self.all[kind.at() * self.vertiports..][..self.vertiports]
     }
 }
 
