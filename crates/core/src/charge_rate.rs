@@ -66,6 +66,7 @@ struct Segment {
 }
 
 impl Segment {
+    #[inline]
     fn seconds_to(&self, mwh: f64) -> f64 {
         let more = mwh - self.from_mwh;
         if self.slope == 0.0 {
@@ -74,6 +75,7 @@ impl Segment {
         self.from_s + libm::log1p(self.slope * more / self.power) / self.slope
     }
 
+    #[inline]
     fn mwh_at(&self, seconds: f64) -> f64 {
         let more_s = seconds - self.from_s;
         if self.slope == 0.0 {
@@ -119,6 +121,7 @@ impl ChargeRate {
     }
 
     /// The seconds that an empty battery takes to reach a charge, mWh.
+    #[inline]
     fn seconds_to(&self, mwh: f64) -> f64 {
         let later = self.segments.partition_point(|segment| segment.from_mwh <= mwh);
         self.segments[later.saturating_sub(1)].seconds_to(mwh)

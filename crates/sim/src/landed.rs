@@ -46,8 +46,18 @@ impl Legs {
         landed: Landed,
         left: Time,
     ) -> Battery {
+        self.lands_after(kind, (from, to), self.charge_mwh(kind, from, landed, left))
+    }
+
+    /// The battery with which a flight lands that leaves with a charge, mWh.
+    #[inline]
+    pub fn lands_after(
+        &self,
+        kind: TypeIx,
+        (from, to): (VertiportIx, VertiportIx),
+        charge_mwh: u64,
+    ) -> Battery {
         let taken_mwh = self.charge_of(kind, (from, to)).energy_mwh;
-        let charge_mwh = self.charge_mwh(kind, from, landed, left);
         self.rate(kind, to).battery(charge_mwh.saturating_sub(taken_mwh))
     }
 }

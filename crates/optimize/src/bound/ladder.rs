@@ -4,9 +4,9 @@
 //! The path to the requested slices passes through all coarser ones (`CUTS`) and does the same work
 //! in each for every request. The result is the best bound that was proven on the path, so a
 //! shorter step never gives a looser bound. On days that charge as needed, the finest slices come
-//! again with more levels of charge, from the fewest on. In each cut, prices are first searched for on a clock
-//! that ticks once a minute, where a step takes a fraction of the time and proves nothing, and then
-//! to the second, where every step proves a bound.
+//! again with more levels of charge, from the fewest on. In each cut, prices are first searched for
+//! on a clock that ticks once a minute, where a step takes a fraction of the time and proves
+//! nothing, and then to the second, where every step proves a bound.
 
 use vertifleet_core::{Scenario, Stop, Time};
 

@@ -6,7 +6,7 @@ use vertifleet_sim::{Landed, View};
 
 use super::batteries::Batteries;
 use super::foresight::Foresight;
-use super::hop::{Hop, Landing};
+use super::hop::{Hop, Landing, Standing};
 
 /// The numbers of a day, by aircraft type and vertiport.
 #[derive(Debug)]
@@ -149,16 +149,31 @@ impl Day {
         Landing { ready_s: self.first_ready_s[aircraft.at()], landed }
     }
 
-    /// The end of a flight that an aircraft decides at a vertiport at a second, where it has
-    /// landed; `None` if its charge suffices only after the end of operations.
+    /// An aircraft that has landed at a vertiport and decides there at a second.
+    #[inline]
+    pub(super) fn standing(
+        &self,
+        aircraft: AircraftIx,
+        at: VertiportIx,
+        decided_s: u32,
+        landed: Landed,
+    ) -> Standing {
+        let charge_mwh = self.batteries.as_ref().map_or(0, |batteries| {
+            let decided = Time::from_seconds(decided_s);
+            batteries.legs.charge_mwh(self.kind(aircraft), at, landed, decided)
+        });
+        Standing { decided_s, landed, charge_mwh }
+    }
+
+    /// The end of a flight that an aircraft decides at a vertiport; `None` if its
+    /// charge suffices only after the end of operations.
     #[inline]
     pub(super) fn landing(
         &self,
         aircraft: AircraftIx,
         from: VertiportIx,
         hop: &Hop,
-        decided_s: u32,
-        landed: Landed,
+        Standing { decided_s, landed, charge_mwh }: Standing,
     ) -> Option<Landing> {
         let Some(batteries) = &self.batteries else {
             let (arrival_s, ready_s) = self.landing_s(aircraft, from, hop, (decided_s, decided_s));
@@ -171,8 +186,12 @@ impl Day {
             return None;
         }
         let (arrival_s, ready_s) = self.landing_s(aircraft, from, hop, (decided_s, takeoff_s));
-        let left = Time::from_seconds(arrival_s - hop.flight_s);
-        let battery = legs.lands_with(kind, pair, landed, left);
+        let left_s = arrival_s - hop.flight_s;
+        let battery = if left_s == decided_s {
+            legs.lands_after(kind, pair, charge_mwh)
+        } else {
+            legs.lands_with(kind, pair, landed, Time::from_seconds(left_s))
+        };
         let landed = Landed { arrival: Time::from_seconds(arrival_s), battery };
         Some(Landing { ready_s, landed })
     }

@@ -16,6 +16,16 @@ pub(super) struct Hop {
     pub(super) flight_cost_usd: f64,
 }
 
+/// An aircraft that stands at a vertiport and decides.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Standing {
+    /// Second of the decision.
+    pub(super) decided_s: u32,
+    pub(super) landed: Landed,
+    /// What its battery holds at the decision, mWh; 0 on days that charge to full.
+    pub(super) charge_mwh: u64,
+}
+
 /// The end of a flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Landing {

@@ -12,7 +12,7 @@ use vertifleet_sim::Landed;
 
 use super::day::Day;
 use super::guiding_prices::GuidingPrices;
-use super::hop::{Hop, Landing};
+use super::hop::{Hop, Landing, Standing};
 use super::passengers::Departure;
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
@@ -130,7 +130,7 @@ struct Choice {
     label: u32,
     place: VertiportIx,
     time_s: u32,
-    landed: Landed,
+    standing: Standing,
     moment: Moment,
     value_usd: f64,
     /// The demand period of the decision.
@@ -297,14 +297,17 @@ impl ItinerarySearch {
         time_s: u32,
         slot_period: usize,
     ) {
+        let day = &task.problem.day;
+        let landed = self.landed.get(at).copied().unwrap_or_default();
+        let standing = day.standing(task.aircraft, place, time_s, landed);
         let choice = Choice {
             label: u32::try_from(at).expect("a day has fewer than 2^32 labels"),
             place,
             time_s,
-            landed: self.landed.get(at).copied().unwrap_or_default(),
+            standing,
             moment: Moment::of(time_s, task.aircraft),
             value_usd: self.labels[at].value_usd,
-            period: task.problem.day.period_from(slot_period, time_s),
+            period: day.period_from(slot_period, time_s),
             minute: task.prices.minute(time_s),
         };
         self.decide(task, &choice);
@@ -357,7 +360,7 @@ impl ItinerarySearch {
             if has_stand { Some(Window::ALWAYS) } else { self.window(choice.place, choice.moment) };
         let Some(window) = window else { return };
         let ready_s = choice.time_s + task.problem.day.hold_s;
-        let place = Place { at: choice.place, window, has_stand, landed: choice.landed };
+        let place = Place { at: choice.place, window, has_stand, landed: choice.standing.landed };
         self.reach(task, choice, place, ready_s, 0.0);
     }
 
@@ -372,7 +375,7 @@ impl ItinerarySearch {
         let windows = &self.waiting_stands[choice.place.at()];
         let at = windows.partition_point(|window| window.closes <= choice.moment);
         let may_move = day.batteries.as_ref().is_none_or(|batteries| {
-            batteries.full_s(task.kind, choice.place, choice.landed) <= choice.time_s
+            batteries.full_s(task.kind, choice.place, choice.standing.landed) <= choice.time_s
         });
         self.has_stand[choice.label as usize]
             || may_move && windows.get(at).is_some_and(|window| window.opens <= choice.moment)
@@ -385,7 +388,7 @@ impl ItinerarySearch {
         if day.is_closed(choice.place, hop.to, choice.time_s) {
             return;
         }
-        let landing = day.landing(task.aircraft, choice.place, hop, choice.time_s, choice.landed);
+        let landing = day.landing(task.aircraft, choice.place, hop, choice.standing);
         let Some(Landing { ready_s, landed }) = landing else { return };
         let energy_usd = day.energy_cost_usd(hop, choice.period, landed.arrival.seconds());
         let place = Place { at: hop.to, window, has_stand: false, landed };
@@ -438,7 +441,8 @@ impl ItinerarySearch {
             let (from, take_off_s) = (place(label), self.labels[label as usize].ready_s);
             let landed = self.landed.get(label as usize).copied().unwrap_or_default();
             let hop = day.hop(task.kind, from, to);
-            let landing = day.landing(task.aircraft, from, hop, take_off_s, landed);
+            let standing = day.standing(task.aircraft, from, take_off_s, landed);
+            let landing = day.landing(task.aircraft, from, hop, standing);
             let landing = landing.expect("it has been found to take off in time");
             Flight { take_off_s, from, to, landing }
         };
