@@ -21,7 +21,8 @@ use super::itinerary::Itinerary;
 /// The most that a second of charging may cost, micro-dollars. It keeps the sums of
 /// `certificate.rs` within `i64`.
 pub(super) const MOST_A_SECOND: i64 = 100_000_000;
-/// The most seconds of charging that a flight pays for or a battery holds, for the same reason.
+/// The most seconds of charging that a flight pays for, for the same reason. What aircraft are given
+/// has no such limit: it must not be less than they may use.
 const MOST_SECONDS: i64 = 1_000_000;
 
 /// What a flight uses of the charging time of its type.
@@ -130,7 +131,7 @@ impl ChargingTime {
             u16::try_from(period(second) - period(first_s)).expect("a day has few periods")
         };
         // Charges are rounded to the nearest milliwatt-hour, at take-off and in the air.
-        let energy_s = self.types[kind.at()].seconds(leg.energy_kwh - 2e-6);
+        let energy_s = self.types[kind.at()].seconds(leg.energy_kwh - 2e-6).min(MOST_SECONDS);
         let air_s = leg.flight_s.min(end_s.saturating_sub(last_s));
         Use {
             energy_s: u32::try_from(energy_s).expect("within the limits"),
@@ -210,6 +211,6 @@ impl OfType {
     /// The whole seconds in which an energy is charged, at least 0.
     #[expect(clippy::cast_possible_truncation, reason = "`as` saturates; checked days have less")]
     fn seconds(&self, kwh: f64) -> i64 {
-        ((kwh * 3600.0 / self.greatest_kw).floor() as i64).clamp(0, MOST_SECONDS)
+        ((kwh * 3600.0 / self.greatest_kw).floor() as i64).max(0)
     }
 }
