@@ -21,8 +21,8 @@ use super::itinerary::Itinerary;
 /// The most that a second of charging may cost, micro-dollars. It keeps the sums of
 /// `certificate.rs` within `i64`.
 pub(super) const MOST_A_SECOND: i64 = 100_000_000;
-/// The most seconds of charging that a flight pays for, for the same reason. What aircraft are given
-/// has no such limit: it must not be less than they may use.
+/// The most seconds of charging that a flight pays for, for the same reason. What aircraft are
+/// given has no such limit: it must not be less than they may use.
 const MOST_SECONDS: i64 = 1_000_000;
 
 /// What a flight uses of the charging time of its type.
