@@ -244,31 +244,40 @@ impl Scenario {
     /// The warning that an aircraft stays all day where it starts.
     fn stranded(&self, aircraft: &Aircraft) -> Option<Warning> {
         let (kind, start) = (&self.aircraft_types[aircraft.kind.at()], aircraft.at);
+        if !self.others(start).any(|to| self.can_fly(kind, start, to)) {
+            return Some(Warning::NoDestination {
+                aircraft: aircraft.id.clone(),
+                kind: kind.id.clone(),
+                at: self.vertiports[start.at()].id.clone(),
+            });
+        }
+        // A full battery lasts for each of these flights, and studies ask this of every day.
+        aircraft.start_charge_kwh.and_then(|kwh| self.charged_too_late(aircraft, kwh))
+    }
+
+    /// The warning that an aircraft which starts with this charge has enough only after the end.
+    fn charged_too_late(&self, aircraft: &Aircraft, start_kwh: f64) -> Option<Warning> {
+        let (kind, start) = (&self.aircraft_types[aircraft.kind.at()], aircraft.at);
         let place = &self.vertiports[start.at()];
-        let (name, of_type, at) = (aircraft.id.clone(), kind.id.clone(), place.id.clone());
         let flown = self.others(start).filter(|&to| self.can_fly(kind, start, to));
         let energies = flown.map(|to| self.energy_kwh(kind, self.distance_mi[(start, to)]));
-        let Some(least_mwh) = energies.map(|kwh| kind.needed_mwh(kwh)).min() else {
-            return Some(Warning::NoDestination { aircraft: name, kind: of_type, at });
-        };
+        let least_mwh = energies.map(|kwh| kind.needed_mwh(kwh)).min()?;
         let rate = ChargeRate::of(kind, place);
-        let start_mwh = whole_mwh(self.start_charge_kwh(aircraft));
-        let battery = rate.battery(start_mwh);
+        let battery = rate.battery(whole_mwh(start_kwh));
         let (leaves_with_mwh, charged_s) = match self.operations.charging {
             Charging::ToFull => (rate.full_mwh(), nearest_second(rate.to_full_s(battery, 0))),
             Charging::AsNeeded => (least_mwh, rate.needed_s(battery, rate.need(least_mwh))),
         };
         let charged_at = self.operations.start + charged_s;
         let end = self.operations.end;
-        let too_late = Warning::ChargedTooLate {
-            aircraft: name,
-            kind: of_type,
-            at,
+        (charged_at > end).then(|| Warning::ChargedTooLate {
+            aircraft: aircraft.id.clone(),
+            kind: kind.id.clone(),
+            at: place.id.clone(),
             needed_kwh: leaves_with_mwh as f64 / 1e6,
             charged_at,
             end,
-        };
-        (charged_at > end).then_some(too_late)
+        })
     }
 
     /// The warning that all stands are taken permanently. Where chargers are counted apart, they
