@@ -2,7 +2,7 @@
 //! the day that is worth most to it. Where the fleet then asks for more or less than is available,
 //! prices should rise or fall.
 
-use super::certificate::{Certificate, earnings};
+use super::certificate::Certificate;
 use super::charge_levels::Level;
 use super::itinerary::Itinerary;
 use super::prices::Prices;
@@ -137,8 +137,7 @@ impl BestItineraries<'_> {
             let to = flight.to.at();
             let next = self.goes_on(ready, (to, flight.level), flight.block_s);
             let goes_on = self.worth_less_paid(next);
-            let earns = earnings(self.prices, flight) - self.certificate.pays(position);
-            here == earns + paid(to) + goes_on
+            here == self.certificate.earned(position) + paid(to) + goes_on
         })
     }
 }

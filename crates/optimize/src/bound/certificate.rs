@@ -38,8 +38,8 @@ pub(super) struct Certificate {
     /// earlier slot and still has to pay, and this is the worth to one that decided in the same
     /// slot before. Empty on other days.
     within_slot: Vec<i64>,
-    /// What each flight pays for its charging; empty on days that charge to full.
-    pays: Vec<i64>,
+    /// What each flight earns: its price less its cost and what it pays for its charging.
+    earned: Vec<i64>,
     /// Distance from a place to the next in `worth_less_paid`.
     stride: usize,
     arch: Arch,
@@ -54,7 +54,7 @@ impl Certificate {
             paid: Vec::with_capacity((day.slices.len() + 1) * day.size()),
             worth_less_paid: vec![0; places],
             within_slot: vec![0; if day.penalty.is_some() { places } else { 0 }],
-            pays: Vec::with_capacity(day.uses().len()),
+            earned: Vec::with_capacity(day.all_flights().len()),
             stride,
             arch: Arch::new(),
         }
@@ -69,25 +69,14 @@ impl Certificate {
         stopped: &Stop,
     ) -> Option<i128> {
         self.pay(day, prices);
-        self.pays.clear();
-        self.pays.extend(day.uses().iter().map(|used| used.payment(&prices.charging)));
+        self.earn(day, prices);
         let of_layer = self.stride * day.places();
         let mut within_slot = self.within_slot.chunks_exact_mut(of_layer);
         let layers = self.worth_less_paid.chunks_exact_mut(of_layer);
         for (layer, worths) in layers.enumerate() {
-            let (paid, charging, stride) = (&self.paid[..], &self.pays[..], self.stride);
+            let (paid, earned, stride) = (&self.paid[..], &self.earned[..], self.stride);
             let within_slot = within_slot.next().unwrap_or_default();
-            let pass = LayerPass {
-                day,
-                prices,
-                paid,
-                charging,
-                layer,
-                stride,
-                worths,
-                within_slot,
-                stopped,
-            };
+            let pass = LayerPass { day, paid, earned, layer, stride, worths, within_slot, stopped };
             if !self.arch.dispatch(pass) {
                 return None;
             }
@@ -95,9 +84,10 @@ impl Certificate {
         Some(self.fleet(day, prices) + dual_constant(day, prices))
     }
 
-    /// What the flight at a position among all flights pays for its charging.
-    pub(super) fn pays(&self, position: usize) -> i64 {
-        self.pays.get(position).copied().unwrap_or(0)
+    /// What the flight at a position among all flights earns.
+    #[inline]
+    pub(super) fn earned(&self, position: usize) -> i64 {
+        self.earned[position]
     }
 
     /// Price of a stand at a vertiport from the start of the day until a slice begins.
@@ -156,6 +146,15 @@ impl Certificate {
         }
     }
 
+    fn earn(&mut self, day: &TimeExpandedDay, prices: &Prices) {
+        let earnings = |flight: &Flight| prices.flight[flight.sold_at as usize] - flight.cost;
+        self.earned.clear();
+        self.earned.extend(day.all_flights().iter().map(earnings));
+        for (earned, used) in self.earned.iter_mut().zip(day.uses()) {
+            *earned -= used.payment(&prices.charging);
+        }
+    }
+
     /// The most that the whole fleet earns after payments. Nothing has been paid when the day
     /// begins.
     fn fleet(&self, day: &TimeExpandedDay, prices: &Prices) -> i128 {
@@ -178,10 +177,8 @@ impl Certificate {
 /// The pass of one layer over the day, from its end back to its start.
 struct LayerPass<'a> {
     day: &'a TimeExpandedDay,
-    prices: &'a Prices,
     paid: &'a [i64],
-    /// What each flight pays for its charging; empty on days that charge to full.
-    charging: &'a [i64],
+    earned: &'a [i64],
     layer: usize,
     stride: usize,
     worths: &'a mut [i64],
@@ -246,13 +243,10 @@ impl LayerPass<'_> {
         let held = self.day.held(self.layer, place);
         self.raise(best, held, begin + self.day.hold_s as usize, past_slot, 0);
         let flights = self.day.flights(slice, self.layer, place);
-        let pays = self.charging.get(self.day.positions(slice, self.layer, place));
-        let mut pays = pays.unwrap_or_default().iter();
-        for flight in flights {
+        let earned = &self.earned[self.day.positions(slice, self.layer, place)];
+        for (flight, earned) in flights.iter().zip(earned) {
             let to = self.day.place(flight.to.at(), flight.level);
-            let pays = pays.next().unwrap_or(&0);
-            let flies =
-                earnings(self.prices, flight) - pays + self.paid(slice, flight.to.at()) - stays;
+            let flies = earned + self.paid(slice, flight.to.at()) - stays;
             self.raise(best, to, begin + flight.block_s as usize, past_slot, flies);
         }
         let layer = &self.day.layers[self.layer];
@@ -306,12 +300,6 @@ fn wait_freely(worths: &mut [i64], mut later: i64) {
         later = later.max(*worth);
         *worth = later;
     }
-}
-
-/// The earnings of a flight before its charging: its price less its cost.
-#[inline]
-pub(super) fn earnings(prices: &Prices, flight: &Flight) -> i64 {
-    prices.flight[flight.sold_at as usize] - flight.cost
 }
 
 /// The amount that is given back: the price of all stands, and the surplus of all passengers.

@@ -312,6 +312,7 @@ impl<'a> Master<'a> {
     }
 
     /// The worth of an itinerary at the model's prices.
+    #[inline]
     fn worth(&self, itinerary: &Itinerary) -> f64 {
         let row = self.stand.len() / self.day.size() + 1;
         let rents = itinerary.stays().map(|(slices, place)| {

@@ -323,6 +323,11 @@ impl TimeExpandedDay {
         &self.flights[self.positions(slice, layer, place)]
     }
 
+    /// The flights of all slices, layers and places.
+    pub(super) fn all_flights(&self) -> &[Flight] {
+        &self.flights
+    }
+
     /// What each flight uses of the charging time; nothing on days that charge to full.
     pub(super) fn uses(&self) -> &[Use] {
         &self.uses

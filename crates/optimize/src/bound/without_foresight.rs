@@ -59,8 +59,7 @@ pub(super) fn bound_with_penalty(
     if certificate.evaluate(&day, &bound.prices, stopped).is_none() {
         return Ok(None);
     }
-    let (prices, certificate) = (&bound.prices, &certificate);
-    let expected = Expected { scenario: &expected, day: &day, prices, certificate };
+    let expected = Expected { scenario: &expected, day: &day, certificate: &certificate };
     let penalty = Penalty::of(delays, probabilities, &expected);
     let relaxed = Relaxed { penalty: Some(&penalty), ..Relaxed::known(scenario, &[]) };
     let bound = search(relaxed, step, &Unless { stopped })?;

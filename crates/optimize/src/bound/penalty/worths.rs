@@ -5,8 +5,8 @@
 use vertifleet_core::{Scenario, TakeoffDelays, TypeIx};
 
 use super::Penalty;
-use crate::bound::certificate::{Certificate, earnings};
-use crate::bound::prices::{Prices, whole};
+use crate::bound::certificate::Certificate;
+use crate::bound::prices::whole;
 use crate::bound::time_expanded_day::TimeExpandedDay;
 
 /// v is worked out for this many delays from none to the longest, and is a straight line between
@@ -16,11 +16,10 @@ const DELAYS: u32 = 30;
 /// `i64`.
 const FARTHEST: i64 = 100_000_000_000_000;
 
-/// A day that is expected, with the prices that were found for it.
+/// A day that is expected, with the certificate of the prices that were found for it.
 pub(in crate::bound) struct Expected<'a> {
     pub(in crate::bound) scenario: &'a Scenario,
     pub(in crate::bound) day: &'a TimeExpandedDay,
-    pub(in crate::bound) prices: &'a Prices,
     pub(in crate::bound) certificate: &'a Certificate,
 }
 
@@ -152,7 +151,7 @@ impl Expected<'_> {
         slot: (u32, u32),
         worths: &mut [i64],
     ) {
-        let Self { day, prices, certificate, .. } = *self;
+        let Self { day, certificate, .. } = *self;
         let slices = &day.slices;
         let first_s = slices.start_s(0);
         let expected_s = self.delay_s(at, slot.0);
@@ -172,9 +171,11 @@ impl Expected<'_> {
                 });
             }
             let stays = certificate.paid(day, slice, at);
-            for flight in day.flights(slice, layer, at) {
+            let positions = day.positions(slice, layer, at);
+            for (position, flight) in positions.zip(day.flights(slice, layer, at)) {
                 let to_at = flight.to.at();
-                let flies = earnings(prices, flight) + certificate.paid(day, slice, to_at) - stays;
+                let earned = certificate.earned(position);
+                let flies = earned + certificate.paid(day, slice, to_at) - stays;
                 let ready = begin + flight.block_s - expected_s + delay_s;
                 let onward = certificate.worths_less_paid(day, layer, to_at, ready as usize);
                 for (worth, onward) in worths[from..to].iter_mut().zip(onward) {
