@@ -41,6 +41,14 @@ pub struct Need {
     filled_s: f64,
 }
 
+impl Need {
+    /// Whether a charge is enough, mWh.
+    #[inline]
+    pub fn is_met_by(self, mwh: u64) -> bool {
+        self.mwh <= mwh
+    }
+}
+
 /// How fast the batteries of one aircraft type charge at one vertiport.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChargeRate {
@@ -217,7 +225,7 @@ impl ChargeRate {
     )]
     #[inline]
     pub fn needed_s(&self, from: Battery, need: Need) -> u32 {
-        if need.mwh <= from.mwh {
+        if need.is_met_by(from.mwh) {
             return 0;
         }
         let exact_s = (need.filled_s - from.filled_s).max(0.0);

@@ -24,8 +24,8 @@ impl Batteries {
             return Self { landed: Vec::new() };
         }
         let landed = scenario.aircraft.iter().map(|aircraft| {
-            let rate = legs.rate(aircraft.kind, aircraft.at);
-            rate.battery(whole_mwh(scenario.start_charge_kwh(aircraft)))
+            let start_mwh = whole_mwh(scenario.start_charge_kwh(aircraft));
+            legs.battery(aircraft.kind, aircraft.at, start_mwh)
         });
         Self { landed: landed.collect() }
     }

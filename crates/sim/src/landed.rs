@@ -1,7 +1,7 @@
 //! What a battery holds from a landing until the next take-off, on days that charge as needed (page
 //! Model, section Energy).
 
-use vertifleet_core::{Battery, Time, TypeIx, VertiportIx};
+use vertifleet_core::{Battery, Need, Time, TypeIx, VertiportIx};
 
 use crate::Legs;
 
@@ -16,6 +16,12 @@ pub struct Landed {
 
 /// For days that charge as needed. The others panic.
 impl Legs {
+    /// The battery of a type that begins to charge at a vertiport with a charge, mWh.
+    #[inline]
+    pub fn battery(&self, kind: TypeIx, at: VertiportIx, mwh: u64) -> Battery {
+        self.rate(kind, at).battery(mwh)
+    }
+
     /// The charge at a time from the landing until take-off of a type that stands at a vertiport,
     /// mWh.
     #[inline]
@@ -32,8 +38,14 @@ impl Legs {
         landed: Landed,
         decided: Time,
     ) -> Time {
-        let need = self.charge_of(kind, (from, to)).need;
+        let need = self.need(kind, (from, to));
         decided.max(landed.arrival + self.rate(kind, from).needed_s(landed.battery, need))
+    }
+
+    /// The charge that a flight needs at its take-off.
+    #[inline]
+    pub fn need(&self, kind: TypeIx, pair: (VertiportIx, VertiportIx)) -> Need {
+        self.charge_of(kind, pair).need
     }
 
     /// The battery with which a flight lands that leaves at a time. A flight that a report forces
@@ -46,18 +58,13 @@ impl Legs {
         landed: Landed,
         left: Time,
     ) -> Battery {
-        self.lands_after(kind, (from, to), self.charge_mwh(kind, from, landed, left))
+        let charge_mwh = self.charge_mwh(kind, from, landed, left);
+        self.battery(kind, to, self.left_mwh(kind, (from, to), charge_mwh))
     }
 
-    /// The battery with which a flight lands that leaves with a charge, mWh.
+    /// What is left of a charge after a flight, mWh.
     #[inline]
-    pub fn lands_after(
-        &self,
-        kind: TypeIx,
-        (from, to): (VertiportIx, VertiportIx),
-        charge_mwh: u64,
-    ) -> Battery {
-        let taken_mwh = self.charge_of(kind, (from, to)).energy_mwh;
-        self.rate(kind, to).battery(charge_mwh.saturating_sub(taken_mwh))
+    pub fn left_mwh(&self, kind: TypeIx, pair: (VertiportIx, VertiportIx), charge_mwh: u64) -> u64 {
+        charge_mwh.saturating_sub(self.charge_of(kind, pair).energy_mwh)
     }
 }

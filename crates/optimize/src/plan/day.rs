@@ -6,7 +6,7 @@ use vertifleet_sim::{Landed, View};
 
 use super::batteries::Batteries;
 use super::foresight::Foresight;
-use super::hop::{Hop, Landing, Standing};
+use super::hop::{Arrival, Hop, Landing, Standing};
 
 /// The numbers of a day, by aircraft type and vertiport.
 #[derive(Debug)]
@@ -143,10 +143,9 @@ impl Day {
 
     /// The aircraft at the start of the day, as if it had landed then.
     pub(super) fn start(&self, aircraft: AircraftIx) -> Landing {
-        let batteries = self.batteries.as_ref();
-        let battery = batteries.map(|batteries| batteries.start(aircraft)).unwrap_or_default();
-        let landed = Landed { arrival: Time::from_seconds(self.first_s), battery };
-        Landing { ready_s: self.first_ready_s[aircraft.at()], landed }
+        let mwh = self.batteries.as_ref().map_or(0, |batteries| batteries.start_mwh(aircraft));
+        let arrival = Arrival { second: self.first_s, mwh };
+        Landing { ready_s: self.first_ready_s[aircraft.at()], arrival }
     }
 
     /// An aircraft that has landed at a vertiport and decides there at a second.
@@ -156,12 +155,14 @@ impl Day {
         aircraft: AircraftIx,
         at: VertiportIx,
         decided_s: u32,
-        landed: Landed,
+        arrival: Arrival,
     ) -> Standing {
-        let charge_mwh = self.batteries.as_ref().map_or(0, |batteries| {
-            let decided = Time::from_seconds(decided_s);
-            batteries.legs.charge_mwh(self.kind(aircraft), at, landed, decided)
-        });
+        let Some(batteries) = &self.batteries else {
+            return Standing { decided_s, landed: Landed::default(), charge_mwh: 0 };
+        };
+        let (kind, decided) = (self.kind(aircraft), Time::from_seconds(decided_s));
+        let landed = batteries.landed(kind, at, arrival);
+        let charge_mwh = batteries.legs.charge_mwh(kind, at, landed, decided);
         Standing { decided_s, landed, charge_mwh }
     }
 
@@ -177,23 +178,27 @@ impl Day {
     ) -> Option<Landing> {
         let Some(batteries) = &self.batteries else {
             let (arrival_s, ready_s) = self.landing_s(aircraft, from, hop, (decided_s, decided_s));
-            let landed = Landed { arrival: Time::from_seconds(arrival_s), ..Landed::default() };
-            return Some(Landing { ready_s, landed });
+            let arrival = Arrival { second: arrival_s, mwh: 0 };
+            return Some(Landing { ready_s, arrival });
         };
         let (kind, pair, legs) = (self.kind(aircraft), (from, hop.to), &batteries.legs);
-        let takeoff_s = legs.takeoff(kind, pair, landed, Time::from_seconds(decided_s)).seconds();
+        let takeoff_s = if legs.need(kind, pair).is_met_by(charge_mwh) {
+            decided_s
+        } else {
+            legs.takeoff(kind, pair, landed, Time::from_seconds(decided_s)).seconds()
+        };
         if takeoff_s > self.end_s {
             return None;
         }
         let (arrival_s, ready_s) = self.landing_s(aircraft, from, hop, (decided_s, takeoff_s));
         let left_s = arrival_s - hop.flight_s;
-        let battery = if left_s == decided_s {
-            legs.lands_after(kind, pair, charge_mwh)
+        let leaves_mwh = if left_s == decided_s {
+            charge_mwh
         } else {
-            legs.lands_with(kind, pair, landed, Time::from_seconds(left_s))
+            legs.charge_mwh(kind, from, landed, Time::from_seconds(left_s))
         };
-        let landed = Landed { arrival: Time::from_seconds(arrival_s), battery };
-        Some(Landing { ready_s, landed })
+        let mwh = legs.left_mwh(kind, pair, leaves_mwh);
+        Some(Landing { ready_s, arrival: Arrival { second: arrival_s, mwh } })
     }
 
     /// When a flight lands and its aircraft is ready again.

@@ -16,6 +16,14 @@ pub(super) struct Hop {
     pub(super) flight_cost_usd: f64,
 }
 
+/// The latest landing of an aircraft, or the start of the day.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Arrival {
+    pub(super) second: u32,
+    /// What its battery held then, mWh; 0 on days that charge to full.
+    pub(super) mwh: u64,
+}
+
 /// An aircraft that stands at a vertiport and decides.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Standing {
@@ -31,5 +39,5 @@ pub(super) struct Standing {
 pub(super) struct Landing {
     /// Second at which the aircraft decides again.
     pub(super) ready_s: u32,
-    pub(super) landed: Landed,
+    pub(super) arrival: Arrival,
 }

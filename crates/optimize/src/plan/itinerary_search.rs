@@ -8,11 +8,11 @@
 //! feasible, except at vertiports with chargers and waiting stands (`chargers.rs`).
 
 use vertifleet_core::{AircraftIx, TypeIx, VertiportIx};
-use vertifleet_sim::Landed;
 
+use super::batteries::PARTS;
 use super::day::Day;
 use super::guiding_prices::GuidingPrices;
-use super::hop::{Hop, Landing, Standing};
+use super::hop::{Arrival, Hop, Landing, Standing};
 use super::passengers::Departure;
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
@@ -53,8 +53,6 @@ struct Label {
     before: u32,
 }
 
-/// Parts of a full battery, of each of which the best label is kept on days that charge as needed.
-const PARTS: usize = 8;
 /// In place of the label before the first one.
 const NONE: u32 = u32::MAX;
 const UNREACHED: Label = Label { value_usd: f64::NEG_INFINITY, ready_s: 0, before: NONE };
@@ -79,7 +77,7 @@ pub(super) struct ItinerarySearch {
     /// The number of parts of a full battery: 1 on days that charge to full.
     parts: usize,
     /// The landing before each label. Empty on days that charge to full.
-    landed: Vec<Landed>,
+    arrivals: Vec<Arrival>,
     /// The windows in which each vertiport has a stand for one more aircraft, vertiport by
     /// vertiport. Each list ends with a window that never opens.
     windows: Vec<Window>,
@@ -130,6 +128,7 @@ struct Choice {
     label: u32,
     place: VertiportIx,
     time_s: u32,
+    arrival: Arrival,
     standing: Standing,
     moment: Moment,
     value_usd: f64,
@@ -148,7 +147,7 @@ struct Place {
     /// Whether it is on a waiting stand.
     has_stand: bool,
     /// Its latest landing there.
-    landed: Landed,
+    arrival: Arrival,
 }
 
 impl ItinerarySearch {
@@ -186,7 +185,7 @@ impl ItinerarySearch {
         debug_assert!(!schedule.is_whole(aircraft), "a whole itinerary is complete");
         flights.clear();
         let day = &problem.day;
-        let (place, Landing { ready_s, landed }) = schedule.open_end(aircraft);
+        let (place, Landing { ready_s, arrival }) = schedule.open_end(aircraft);
         let task = Task {
             problem,
             schedule,
@@ -199,7 +198,7 @@ impl ItinerarySearch {
         };
         self.prepare(&task);
         let has_stand = schedule.flights(aircraft).is_empty();
-        let place = Place { at: place, window: Window::ALWAYS, has_stand, landed };
+        let place = Place { at: place, window: Window::ALWAYS, has_stand, arrival };
         self.enter(&task, &place, Label { value_usd: 0.0, ready_s, before: NONE });
         self.settle(&task);
         let Some(finish) = self.best else { return false };
@@ -226,7 +225,7 @@ impl ItinerarySearch {
         self.parts = if day.batteries.is_some() { PARTS } else { 1 };
         self.labels.resize(slots as usize * day.vertiports * self.parts, UNREACHED);
         let charged = if day.batteries.is_some() { self.labels.len() } else { 0 };
-        self.landed.resize(charged, Landed::default());
+        self.arrivals.resize(charged, Arrival::default());
         self.has_stand.clear();
         if let Some(waiting) = &task.schedule.waiting_stands {
             self.has_stand.resize(self.labels.len(), false);
@@ -246,17 +245,15 @@ impl ItinerarySearch {
         let slot = ((label.ready_s - task.origin_s) >> self.slot_bits) as usize;
         let mut at = slot * day.vertiports + place.at.at();
         if let Some(batteries) = &day.batteries {
-            let (kind, landed) = (task.kind, place.landed);
-            let part = batteries.part(kind, place.at, landed, label.ready_s, self.parts);
-            at = at * self.parts + part;
+            at = at * PARTS + batteries.part(task.kind, place.at, place.arrival, label.ready_s);
         }
         if label.value_usd > self.labels[at].value_usd {
             self.labels[at] = label;
             if let Some(of_label) = self.has_stand.get_mut(at) {
                 *of_label = place.has_stand;
             }
-            if let Some(of_label) = self.landed.get_mut(at) {
-                *of_label = place.landed;
+            if let Some(of_label) = self.arrivals.get_mut(at) {
+                *of_label = place.arrival;
             }
         }
     }
@@ -298,12 +295,13 @@ impl ItinerarySearch {
         slot_period: usize,
     ) {
         let day = &task.problem.day;
-        let landed = self.landed.get(at).copied().unwrap_or_default();
-        let standing = day.standing(task.aircraft, place, time_s, landed);
+        let arrival = self.arrivals.get(at).copied().unwrap_or_default();
+        let standing = day.standing(task.aircraft, place, time_s, arrival);
         let choice = Choice {
             label: u32::try_from(at).expect("a day has fewer than 2^32 labels"),
             place,
             time_s,
+            arrival,
             standing,
             moment: Moment::of(time_s, task.aircraft),
             value_usd: self.labels[at].value_usd,
@@ -360,7 +358,7 @@ impl ItinerarySearch {
             if has_stand { Some(Window::ALWAYS) } else { self.window(choice.place, choice.moment) };
         let Some(window) = window else { return };
         let ready_s = choice.time_s + task.problem.day.hold_s;
-        let place = Place { at: choice.place, window, has_stand, landed: choice.standing.landed };
+        let place = Place { at: choice.place, window, has_stand, arrival: choice.arrival };
         self.reach(task, choice, place, ready_s, 0.0);
     }
 
@@ -375,7 +373,7 @@ impl ItinerarySearch {
         let windows = &self.waiting_stands[choice.place.at()];
         let at = windows.partition_point(|window| window.closes <= choice.moment);
         let may_move = day.batteries.as_ref().is_none_or(|batteries| {
-            batteries.full_s(task.kind, choice.place, choice.standing.landed) <= choice.time_s
+            batteries.full_s(task.kind, choice.place, choice.arrival) <= choice.time_s
         });
         self.has_stand[choice.label as usize]
             || may_move && windows.get(at).is_some_and(|window| window.opens <= choice.moment)
@@ -389,9 +387,9 @@ impl ItinerarySearch {
             return;
         }
         let landing = day.landing(task.aircraft, choice.place, hop, choice.standing);
-        let Some(Landing { ready_s, landed }) = landing else { return };
-        let energy_usd = day.energy_cost_usd(hop, choice.period, landed.arrival.seconds());
-        let place = Place { at: hop.to, window, has_stand: false, landed };
+        let Some(Landing { ready_s, arrival }) = landing else { return };
+        let energy_usd = day.energy_cost_usd(hop, choice.period, arrival.second);
+        let place = Place { at: hop.to, window, has_stand: false, arrival };
         self.reach(task, choice, place, ready_s, self.offers_usd[offer] - energy_usd);
     }
 
@@ -439,9 +437,9 @@ impl ItinerarySearch {
         let place = |label: u32| VertiportIx::new(label as usize / self.parts % day.vertiports);
         let flight = |label: u32, to: VertiportIx| {
             let (from, take_off_s) = (place(label), self.labels[label as usize].ready_s);
-            let landed = self.landed.get(label as usize).copied().unwrap_or_default();
+            let arrival = self.arrivals.get(label as usize).copied().unwrap_or_default();
             let hop = day.hop(task.kind, from, to);
-            let standing = day.standing(task.aircraft, from, take_off_s, landed);
+            let standing = day.standing(task.aircraft, from, take_off_s, arrival);
             let landing = day.landing(task.aircraft, from, hop, standing);
             let landing = landing.expect("it has been found to take off in time");
             Flight { take_off_s, from, to, landing }

@@ -177,7 +177,7 @@ impl Schedule {
         let full_s = |at: VertiportIx, landing: Landing| {
             let batteries = day.batteries.as_ref();
             let kind = day.kind(aircraft);
-            batteries.map_or(0, |batteries| batteries.full_s(kind, at, landing.landed))
+            batteries.map_or(0, |batteries| batteries.full_s(kind, at, landing.arrival))
         };
         let (ready_s, full) = (start.ready_s, full_s(*place, *start));
         let first = Stay { aircraft, at: *place, comes, ready_s, full_s: full, leaves };
@@ -205,7 +205,7 @@ impl Schedule {
         let cell = day.cell(period, flight.from, flight.to);
         let departure = Departure { cell, period, take_off_s: flight.take_off_s };
         let margin_usd = self.passengers.add(day, departure, sign * day.seats(aircraft));
-        let cost_usd = day.flying_cost_usd(hop, period, flight.landing.landed.arrival.seconds());
+        let cost_usd = day.flying_cost_usd(hop, period, flight.landing.arrival.second);
         margin_usd - sign as f64 * cost_usd
     }
 

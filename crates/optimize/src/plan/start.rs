@@ -144,7 +144,7 @@ pub(super) fn schedule_of(problem: &Problem, trace: &Trace) -> Schedule {
         let own: &mut Vec<Flight> = &mut flights[row.aircraft.at()];
         let before = own.last().map_or_else(|| day.start(row.aircraft), |flight| flight.landing);
         let hop = day.hop(day.kind(row.aircraft), row.from, row.to);
-        let standing = day.standing(row.aircraft, row.from, take_off_s, before.landed);
+        let standing = day.standing(row.aircraft, row.from, take_off_s, before.arrival);
         let landing = day.landing(row.aircraft, row.from, hop, standing);
         let landing = landing.expect("the simulator has flown it");
         own.push(Flight { take_off_s, from: row.from, to: row.to, landing });

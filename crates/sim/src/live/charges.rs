@@ -106,6 +106,6 @@ impl LiveDay {
     /// The battery of an aircraft that begins to charge where it is, or will land.
     fn battery(&self, aircraft: AircraftIx, mwh: u64) -> Battery {
         let kind = self.scenario().aircraft[aircraft.at()].kind;
-        self.known.legs.rate(kind, self.known.place[aircraft.at()]).battery(mwh)
+        self.known.legs.battery(kind, self.known.place[aircraft.at()], mwh)
     }
 }
