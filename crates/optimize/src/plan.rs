@@ -38,6 +38,9 @@ pub use start::StartingPolicy;
 /// Share of the remaining time for which a policy plays its day before it is judged whether it will
 /// finish in time.
 const JUDGED_FROM: f64 = 0.25;
+/// A thorough day of the rolling horizon goes on unless it seems to take this many times as long as
+/// there is time for.
+const MISJUDGED: f64 = 2.0;
 /// Dives take this share of the budget, or less. Within this share, a thorough day of the rolling
 /// horizon is played in parallel.
 const DIVE_SHARE: f64 = 0.5;
@@ -164,10 +167,15 @@ pub fn plan(
     // Until the dives have ended, another day to begin with is worth more than improving the best
     // one so far.
     if dives && !stopped && (early.is_some() || clock.waits_for_dive()) {
-        let day = start::rolled_thoroughly(scenario, &mut || {
+        let (begun, decisions) = (Instant::now(), plan.trace.rows.len().max(1) as f64);
+        let time = clock.left_to_dive();
+        let day = start::rolled_thoroughly(scenario, &mut |taken| {
             let (share, profit_usd) = (clock.share(0), plan.profit_usd);
             stopped |= !watch(&SearchProgress { share, steps: 0, profit_usd });
-            !stopped && share < DIVE_SHARE
+            let (played, day_share) = (begun.elapsed(), (taken as f64 / decisions).min(1.0));
+            let to_come_s = to_come_s(played, day_share);
+            let is_late = to_come_s > MISJUDGED * time.saturating_sub(played).as_secs_f64();
+            !stopped && played < time && (played < time.mul_f64(JUDGED_FROM) || !is_late)
         });
         if let Some(day) = day.filter(|day| day.profit_usd > plan.profit_usd) {
             (plan.trace, plan.profit_usd) = (day.trace, day.profit_usd);
@@ -205,6 +213,14 @@ impl Clock {
     fn left(&self) -> Duration {
         match self.budget {
             Budget::Time(limit) => limit.saturating_sub(self.begun.elapsed()),
+            Budget::Steps(_) => Duration::MAX,
+        }
+    }
+
+    /// The time that is left for dives. Practically infinite where time is not limited.
+    fn left_to_dive(&self) -> Duration {
+        match self.budget {
+            Budget::Time(limit) => limit.mul_f64(DIVE_SHARE).saturating_sub(self.begun.elapsed()),
             Budget::Steps(_) => Duration::MAX,
         }
     }

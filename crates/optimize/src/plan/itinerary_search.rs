@@ -157,9 +157,11 @@ impl ItinerarySearch {
         Self::in_slots(5)
     }
 
-    /// A search in slots of about four minutes, or of the shortest flight or hold of a day.
+    /// A search in slots of about four minutes, or of the shortest flight or hold of a day. On days
+    /// that charge as needed slots are twice as long, because each has more labels.
     pub(super) fn quick(day: &Day) -> Self {
-        Self::in_slots(day.shortest_s().ilog2().min(8))
+        let longest_bits = if day.batteries.is_some() { 9 } else { 8 };
+        Self::in_slots(day.shortest_s().ilog2().min(longest_bits))
     }
 
     fn in_slots(slot_bits: u32) -> Self {

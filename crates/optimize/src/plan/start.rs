@@ -123,12 +123,12 @@ pub(super) fn best_policy(
 }
 
 /// A day of the rolling horizon with more roll-outs, or `None` if `go_on`, called after each
-/// decision, returns `false`.
+/// decision with the number of decisions so far, returns `false`.
 pub(super) fn rolled_thoroughly(
     scenario: &Arc<Scenario>,
-    go_on: &mut dyn FnMut() -> bool,
+    go_on: &mut dyn FnMut(usize) -> bool,
 ) -> Option<PlayedDay> {
-    Begun::by(&mut Rolling::thorough(), scenario, &mut |_| go_on()).whole("rolling")
+    Begun::by(&mut Rolling::thorough(), scenario, go_on).whole("rolling")
 }
 
 /// The day that earns more; of equals, the first.
