@@ -8,7 +8,7 @@ use vertifleet_sim::{Landed, Legs};
 use super::hop::Arrival;
 
 /// Parts of a full battery, of each of which a search keeps the best label.
-pub(super) const PARTS: usize = 8;
+pub(super) const PARTS: usize = 12;
 /// Charges whose time to charge is kept for telling parts apart.
 const CHARGES: usize = 256;
 

@@ -158,10 +158,13 @@ impl ItinerarySearch {
     }
 
     /// A search in slots of about four minutes, or of the shortest flight or hold of a day. On days
-    /// that charge as needed slots are twice as long, because each has more labels.
+    /// that charge as needed, where each slot has more labels, they are about a hundredth of the day.
     pub(super) fn quick(day: &Day) -> Self {
-        let longest_bits = if day.batteries.is_some() { 9 } else { 8 };
-        Self::in_slots(day.shortest_s().ilog2().min(longest_bits))
+        let longest_s = match day.batteries {
+            Some(_) => (day.end_s - day.first_s).div_ceil(100).max(1),
+            None => 1 << 8,
+        };
+        Self::in_slots(day.shortest_s().min(longest_s).ilog2())
     }
 
     fn in_slots(slot_bits: u32) -> Self {
