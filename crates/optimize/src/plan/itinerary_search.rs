@@ -158,7 +158,8 @@ impl ItinerarySearch {
     }
 
     /// A search in slots of about four minutes, or of the shortest flight or hold of a day. On days
-    /// that charge as needed, where each slot has more labels, they are about a hundredth of the day.
+    /// that charge as needed, where each slot has more labels, they are about a hundredth of the
+    /// day.
     pub(super) fn quick(day: &Day) -> Self {
         let longest_s = match day.batteries {
             Some(_) => (day.end_s - day.first_s).div_ceil(100).max(1),
