@@ -183,9 +183,7 @@ def test_a_plan_is_as_good_as_the_optimum_and_the_bound_is_above_it(day: dict[st
     scenario = vertifleet.Scenario.from_json(json.dumps(day))
     possible_usd, _ = best_profit_usd(day, frees_first=False)
     _, most_usd = best_profit_usd(day, frees_first=True)
-    # On day quick-9, one search in two stays at a schedule that earns 2 % less.
-    plans = [vertifleet.plan(scenario, steps=20_000, seed=seed) for seed in (1, 2)]
-    plan = max(plans, key=lambda plan: plan.profit_usd)
+    plan = vertifleet.plan(scenario, steps=20_000, seed=1)
     bound_usd = vertifleet.bound(scenario, step=1).upper_bound_usd
     assert 0.999 * possible_usd <= plan.profit_usd <= most_usd + 1e-6
     assert most_usd <= 1.0001 * bound_usd
