@@ -311,16 +311,33 @@ impl<'a> Master<'a> {
         }
     }
 
-    /// The worth of an itinerary at the model's prices.
+    /// The worth of an itinerary at the model's prices. Rents and sales are summed in one loop:
+    /// each addition waits for the one before it in its sum, but not for the other sum.
     #[inline]
     fn worth(&self, itinerary: &Itinerary) -> f64 {
         let row = self.stand.len() / self.day.size() + 1;
-        let rents = itinerary.stays().map(|(slices, place)| {
-            self.paid[place * row + slices.end] - self.paid[place * row + slices.start]
-        });
-        let sold = itinerary.flights.iter().map(|&(at, number)| self.flight[at as usize] * number);
-        itinerary.earnings - rents.sum::<f64>() + sold.sum::<f64>()
-            - self.charging.payment(itinerary)
+        let (mut rents, mut sold) = (0.0, 0.0);
+        let rent = |begin: u32, (until, place): (u32, u32)| {
+            let paid = &self.paid[place as usize * row..][..row];
+            paid[until as usize] - paid[begin as usize]
+        };
+        let sale = |(at, number): (u32, f64)| self.flight[at as usize] * number;
+        let (stays, flights) = (&itinerary.stays, &itinerary.flights);
+        let both = stays.len().min(flights.len());
+        let mut begin = 0;
+        for (&stay, &flight) in stays[..both].iter().zip(&flights[..both]) {
+            rents += rent(begin, stay);
+            sold += sale(flight);
+            begin = stay.0;
+        }
+        for &stay in &stays[both..] {
+            rents += rent(begin, stay);
+            begin = stay.0;
+        }
+        for &flight in &flights[both..] {
+            sold += sale(flight);
+        }
+        itinerary.earnings - rents + sold - self.charging.payment(itinerary)
     }
 
     /// Shifts aircraft of a group from bad itineraries to the best. Returns what could have been
