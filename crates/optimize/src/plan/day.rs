@@ -1,8 +1,8 @@
 //! The duration, energy and profit of every flight of a day, in the form that the search reads
 //! fastest.
 
-use vertifleet_core::{AircraftIx, Scenario, Time, TypeIx, VertiportIx};
-use vertifleet_sim::{Landed, View};
+use vertifleet_core::{AircraftIx, Scenario, TypeIx, VertiportIx};
+use vertifleet_sim::View;
 
 use super::batteries::Batteries;
 use super::foresight::Foresight;
@@ -157,13 +157,11 @@ impl Day {
         decided_s: u32,
         arrival: Arrival,
     ) -> Standing {
-        let Some(batteries) = &self.batteries else {
-            return Standing { decided_s, landed: Landed::default(), charge_mwh: 0 };
-        };
-        let (kind, decided) = (self.kind(aircraft), Time::from_seconds(decided_s));
-        let landed = batteries.landed(kind, at, arrival);
-        let charge_mwh = batteries.legs.charge_mwh(kind, at, landed, decided);
-        Standing { decided_s, landed, charge_mwh }
+        let late_s = self.foresight.as_ref().map_or(0, |known| known.late_s(at, decided_s));
+        let charge = self.batteries.as_ref().map(|batteries| {
+            batteries.charge((self.kind(aircraft), at), arrival, (decided_s, late_s))
+        });
+        Standing { decided_s, late_s, charge }
     }
 
     /// The end of a flight that an aircraft decides at a vertiport; `None` if its
@@ -174,46 +172,24 @@ impl Day {
         aircraft: AircraftIx,
         from: VertiportIx,
         hop: &Hop,
-        Standing { decided_s, landed, charge_mwh }: Standing,
+        Standing { decided_s, late_s, charge }: Standing,
     ) -> Option<Landing> {
-        let Some(batteries) = &self.batteries else {
-            let (arrival_s, ready_s) = self.landing_s(aircraft, from, hop, (decided_s, decided_s));
-            let arrival = Arrival { second: arrival_s, mwh: 0 };
-            return Some(Landing { ready_s, arrival });
-        };
-        let (kind, pair, legs) = (self.kind(aircraft), (from, hop.to), &batteries.legs);
-        let takeoff_s = if legs.need(kind, pair).is_met_by(charge_mwh) {
-            decided_s
-        } else {
-            legs.takeoff(kind, pair, landed, Time::from_seconds(decided_s)).seconds()
-        };
-        if takeoff_s > self.end_s {
-            return None;
+        let mut leaves_s = decided_s + late_s;
+        let mut mwh = 0;
+        if let (Some(batteries), Some(charge)) = (&self.batteries, charge) {
+            let kind = self.kind(aircraft);
+            let (takeoff_s, lands_mwh) =
+                batteries.fly((kind, from, hop.to), charge, (decided_s, late_s));
+            if takeoff_s > self.end_s {
+                return None;
+            }
+            (leaves_s, mwh) = (takeoff_s + late_s, lands_mwh);
         }
-        let (arrival_s, ready_s) = self.landing_s(aircraft, from, hop, (decided_s, takeoff_s));
-        let left_s = arrival_s - hop.flight_s;
-        let leaves_mwh = if left_s == decided_s {
-            charge_mwh
-        } else {
-            legs.charge_mwh(kind, from, landed, Time::from_seconds(left_s))
-        };
-        let mwh = legs.left_mwh(kind, pair, leaves_mwh);
+        let (arrival_s, charged_s) = (leaves_s + hop.flight_s, leaves_s + hop.block_s);
+        let foresight = self.foresight.as_ref();
+        let ready_s =
+            foresight.map_or(charged_s, |known| known.ready_s(aircraft, arrival_s, charged_s));
         Some(Landing { ready_s, arrival: Arrival { second: arrival_s, mwh } })
-    }
-
-    /// When a flight lands and its aircraft is ready again.
-    #[inline]
-    fn landing_s(
-        &self,
-        aircraft: AircraftIx,
-        from: VertiportIx,
-        hop: &Hop,
-        (decided_s, takeoff_s): (u32, u32),
-    ) -> (u32, u32) {
-        match &self.foresight {
-            None => (takeoff_s + hop.flight_s, takeoff_s + hop.block_s),
-            Some(foresight) => foresight.landing_s(aircraft, from, hop, (decided_s, takeoff_s)),
-        }
     }
 
     /// Whether a route is known to be closed at a second.

@@ -6,8 +6,6 @@
 
 use vertifleet_core::{AircraftIx, ClosedTimes, Disturbances, Scenario, Time, VertiportIx};
 
-use super::hop::Hop;
-
 /// The disturbances of a day, all of them known.
 #[derive(Debug)]
 pub(super) struct Foresight {
@@ -25,26 +23,21 @@ impl Foresight {
         (!disturbances.is_none()).then_some(Self { start, disturbances, closed })
     }
 
-    /// The landing of a flight of an aircraft from a vertiport that is decided at a second and may
-    /// take off at another, and the second at which the aircraft is ready again.
-    pub(super) fn landing_s(
-        &self,
-        aircraft: AircraftIx,
-        from: VertiportIx,
-        hop: &Hop,
-        (decided_s, takeoff_s): (u32, u32),
-    ) -> (u32, u32) {
+    /// Seconds by which flights leave a vertiport late that are decided at a second.
+    pub(super) fn late_s(&self, from: VertiportIx, decided_s: u32) -> u32 {
         let delays = self.disturbances.takeoff_delays.as_ref();
         let decided = Time::from_seconds(decided_s);
-        let late_s = delays.map_or(0, |delays| delays.at(self.start, decided, from));
-        let arrival_s = takeoff_s + late_s + hop.flight_s;
-        let charged_s = takeoff_s + late_s + hop.block_s;
+        delays.map_or(0, |delays| delays.at(self.start, decided, from))
+    }
+
+    /// The second at which an aircraft is ready that lands at `arrival_s` and would be ready at
+    /// `charged_s` without outages.
+    pub(super) fn ready_s(&self, aircraft: AircraftIx, arrival_s: u32, charged_s: u32) -> u32 {
         let own = self.disturbances.outages.iter().filter(|outage| {
             outage.aircraft == aircraft
                 && (outage.start.seconds()..outage.end.seconds()).contains(&arrival_s)
         });
-        let ready_s = own.map(|outage| outage.end.seconds()).fold(charged_s, u32::max);
-        (arrival_s, ready_s)
+        own.map(|outage| outage.end.seconds()).fold(charged_s, u32::max)
     }
 
     /// Whether a route is closed at a time.

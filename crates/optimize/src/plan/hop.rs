@@ -29,9 +29,20 @@ pub(super) struct Arrival {
 pub(super) struct Standing {
     /// Second of the decision.
     pub(super) decided_s: u32,
+    /// Seconds by which a flight that it decides leaves after its take-off.
+    pub(super) late_s: u32,
+    /// On days that charge as needed.
+    pub(super) charge: Option<Charge>,
+}
+
+/// The charge of an aircraft that stands at a vertiport and decides.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Charge {
     pub(super) landed: Landed,
-    /// What its battery holds at the decision, mWh; 0 on days that charge to full.
-    pub(super) charge_mwh: u64,
+    /// What its battery holds at the decision, mWh.
+    pub(super) decides_mwh: u64,
+    /// What it holds when a flight leaves that need not wait for charge, mWh.
+    pub(super) leaves_mwh: u64,
 }
 
 /// The end of a flight.
