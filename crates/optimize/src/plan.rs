@@ -149,17 +149,17 @@ pub fn plan(
     // The time that the prices of a day take at its start. The search needs them too.
     let mut first = Duration::ZERO;
     let start::PlayedDay { policy, trace, profit_usd } = start::best_policy(scenario, more, &mut {
-        let mut day = DayTimer::begin(&clock);
+        let mut day = DayTimer::begin(clock.left(), 1.0);
         let (clock, stopped, first, watch) = (&clock, &mut stopped, &mut first, &mut *watch);
         move |profit_usd, day_share: Option<f64>| {
             *stopped |= !watch(&SearchProgress { share: clock.share(0), steps: 0, profit_usd });
             let Some(day_share) = day_share else {
-                day = DayTimer::begin(clock);
+                day = DayTimer::begin(clock.left(), 1.0);
                 return !*stopped && clock.left() > *first;
             };
             day.has_decided();
             *first = (*first).max(day.first.unwrap_or_default());
-            !*stopped && clock.leaves_time_for(&day, day_share)
+            !*stopped && day.can_end(clock.left(), day_share)
         }
     });
     let mut plan =
@@ -167,15 +167,14 @@ pub fn plan(
     // Until the dives have ended, another day to begin with is worth more than improving the best
     // one so far.
     if dives && !stopped && (early.is_some() || clock.waits_for_dive()) {
-        let (begun, decisions) = (Instant::now(), plan.trace.rows.len().max(1) as f64);
-        let time = clock.left_to_dive();
+        let decisions = plan.trace.rows.len().max(1) as f64;
+        let mut timer = DayTimer::begin(clock.left_to_dive(), MISJUDGED);
         let day = start::rolled_thoroughly(scenario, &mut |taken| {
             let (share, profit_usd) = (clock.share(0), plan.profit_usd);
             stopped |= !watch(&SearchProgress { share, steps: 0, profit_usd });
-            let (played, day_share) = (begun.elapsed(), (taken as f64 / decisions).min(1.0));
-            let to_come_s = to_come_s(played, day_share);
-            let is_late = to_come_s > MISJUDGED * time.saturating_sub(played).as_secs_f64();
-            !stopped && played < time && (played < time.mul_f64(JUDGED_FROM) || !is_late)
+            timer.has_decided();
+            let day_share = (taken as f64 / decisions).min(1.0);
+            !stopped && timer.can_end(clock.left_to_dive(), day_share)
         });
         if let Some(day) = day.filter(|day| day.profit_usd > plan.profit_usd) {
             (plan.trace, plan.profit_usd) = (day.trace, day.profit_usd);
@@ -242,15 +241,6 @@ impl Clock {
         }
     }
 
-    /// Whether a policy may continue with a day of which a share has been played: there must be
-    /// time for one more decision, and the day must seem to finish in time.
-    fn leaves_time_for(&self, day: &DayTimer, day_share: f64) -> bool {
-        let left = self.left();
-        let played = day.begun.elapsed();
-        let seems_to_end = || to_come_s(played, day_share) <= left.as_secs_f64();
-        left > day.longest && (played < day.judged_after || seems_to_end())
-    }
-
     /// The most steps of each search in the next round.
     fn steps_a_round(&self, done: u64) -> u64 {
         match self.budget {
@@ -276,6 +266,8 @@ impl Clock {
 struct DayTimer {
     begun: Instant,
     judged_after: Duration,
+    /// How many times as long as there is time for a day may seem to take.
+    misjudged: f64,
     /// Duration of the first decision, which includes much preparation.
     first: Option<Duration>,
     /// The time of the latest decision, and the longest duration of any decision after the first.
@@ -284,10 +276,12 @@ struct DayTimer {
 }
 
 impl DayTimer {
-    fn begin(clock: &Clock) -> Self {
+    /// A day that begins with some time left.
+    fn begin(left: Duration, misjudged: f64) -> Self {
         let now = Instant::now();
-        let judged_after = clock.left().mul_f64(JUDGED_FROM);
-        Self { begun: now, judged_after, first: None, latest: now, longest: Duration::ZERO }
+        let judged_after = left.mul_f64(JUDGED_FROM);
+        let longest = Duration::ZERO;
+        Self { begun: now, judged_after, misjudged, first: None, latest: now, longest }
     }
 
     fn has_decided(&mut self) {
@@ -299,6 +293,14 @@ impl DayTimer {
         } else {
             self.first = Some(took);
         }
+    }
+
+    /// Whether a policy may continue with the day, of which a share has been played, with some time
+    /// left: there must be time for one more decision, and the day must seem to end in time.
+    fn can_end(&self, left: Duration, day_share: f64) -> bool {
+        let played = self.begun.elapsed();
+        let seems_to_end = || to_come_s(played, day_share) <= self.misjudged * left.as_secs_f64();
+        left > self.longest && (played < self.judged_after || seems_to_end())
     }
 }
 
