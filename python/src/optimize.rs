@@ -161,11 +161,22 @@ impl Bound {
 }
 
 /// Proves an upper bound on the profit of every schedule of a day. `step` is the length of the
-/// bound's slices in minutes, 1 to 60. Shorter slices never give a looser bound, but take longer.
+/// bound's slices in minutes, 1 to 60, and `levels` the number of levels of charge on days that
+/// charge as needed, 4 to 16. Shorter slices and more levels never give a looser bound, but take
+/// longer.
 #[pyfunction]
-#[pyo3(signature = (scenario, *, step = WholeNumber::from(5)), text_signature = "(scenario, *, step=5)")]
-pub(crate) fn bound(py: Python<'_>, scenario: &Scenario, step: WholeNumber) -> PyResult<Bound> {
+#[pyo3(
+    signature = (scenario, *, step = WholeNumber::from(5), levels = WholeNumber::from(4)),
+    text_signature = "(scenario, *, step=5, levels=4)"
+)]
+pub(crate) fn bound(
+    py: Python<'_>,
+    scenario: &Scenario,
+    step: WholeNumber,
+    levels: WholeNumber,
+) -> PyResult<Bound> {
     let step = Step::from_minutes(step.of("step")?).map_err(Failure::from)?;
+    let step = step.with_levels(levels.of("levels")?).map_err(Failure::from)?;
     let day = Arc::clone(&scenario.scenario);
     let bound = interruptible(py, 1, move |stop| {
         let bound = exact::upper_bound_unless(stop, &day, step)?;

@@ -294,6 +294,12 @@ def test_the_shipped_models_say_what_they_are() -> None:
     assert vertifleet.settings("paper")["total_steps"] == 2_000_000
 
 
+def test_more_levels_of_charge_lower_the_bound_of_a_day_that_charges_as_needed() -> None:
+    day = Network("paper-quick").draw(1)
+    usual, finer = (vertifleet.bound(day, step=60, levels=levels) for levels in (4, 8))
+    assert finer.upper_bound_usd < usual.upper_bound_usd
+
+
 @pytest.mark.parametrize(
     ("call", "code"),
     [
@@ -307,6 +313,7 @@ def test_the_shipped_models_say_what_they_are() -> None:
         (lambda day, paper: vertifleet.plan(day, steps=5, time_limit=5.0), "V451"),
         (lambda day, paper: vertifleet.plan(day, seed=-1), "V451"),
         (lambda day, paper: vertifleet.bound(day, step=-1), "V451"),
+        (lambda day, paper: vertifleet.bound(day, levels=17), "V505"),
         (lambda day, paper: vertifleet.simulate(day, "random", seed=2**200), "V451"),
         (lambda day, paper: paper.draw(-1), "V451"),
         (lambda day, paper: paper.draw(2**40), "V118"),

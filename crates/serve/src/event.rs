@@ -160,20 +160,20 @@ pub(crate) enum EventKind {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         charge_kwh: Option<f64>,
     },
-    /// An aircraft on the ground is expected to be charged at a time.
+    /// An aircraft on the ground is expected to be ready at a time.
     Charging {
         /// The aircraft.
         aircraft: String,
-        /// The expected end of charging.
+        /// The expected time.
         ready: Moment,
     },
-    /// An aircraft is charged.
+    /// An aircraft is ready.
     Ready {
         /// The aircraft.
         aircraft: String,
     },
     /// The next step of an aircraft is expected at another time: its departure if it has been
-    /// dispatched, its landing if it is in the air, the end of charging if it stands.
+    /// dispatched, its landing if it is in the air, the time at which it is ready if it stands.
     Delayed {
         /// The aircraft.
         aircraft: String,

@@ -2,7 +2,7 @@
 //!
 //! Until an event is reported, the simulator computes what to expect, by the same code as on other
 //! days: an aircraft that was sent off departs at once, lands after the flight's time and is ready
-//! when it is charged. If the reports match these expectations, the live day is the simulated day,
+//! when it is prepared. If the reports match these expectations, the live day is the simulated day,
 //! to the cent. Reports are taken one after the other ([`LiveDay::take`]), so a day is a function
 //! of its scenario and its reports.
 
@@ -48,8 +48,9 @@ pub struct LiveDay {
 #[derive(Debug, Clone, Copy)]
 struct LiveAircraft {
     phase: Phase,
-    /// The time at which it is charged, whether or not it is in service then.
-    charged: Time,
+    /// When it is prepared for its next decision, whether or not it is in service then: its
+    /// turnaround is over and, on days that charge to full, its battery full.
+    prepared: Time,
     /// Since when it cannot fly: until a time, or until it is reported back.
     out: Option<OutOfService>,
     /// Its latest decision, if it can be undone.
@@ -113,11 +114,11 @@ impl LiveDecision {
     }
 }
 
-/// An aircraft before a decision: when it was charged, when it had landed and with which charge,
+/// An aircraft before a decision: when it was prepared, when it had landed and with which charge,
 /// and whether it waited without a charger.
 #[derive(Debug, Clone, Copy)]
 struct Before {
-    charged: Time,
+    prepared: Time,
     arrival: Time,
     /// An empty one on days that charge to full.
     battery: Battery,
@@ -176,7 +177,7 @@ impl LiveDay {
         let start = scenario.operations.start;
         let standing = |aircraft| LiveAircraft {
             phase: Phase::Standing,
-            charged: known.queue.ready_at(aircraft),
+            prepared: known.queue.ready_at(aircraft),
             out: None,
             undoable: None,
         };
@@ -339,15 +340,15 @@ impl LiveDay {
         }
         let state = &self.aircraft[aircraft.at()];
         day.arrival[aircraft.at()] = self.known.arrival[aircraft.at()] + late_s;
-        self.in_service(state, state.charged + late_s)
+        self.in_service(state, state.prepared + late_s)
     }
 
-    /// The time at which an aircraft is ready that is charged at a time.
-    fn in_service(&self, aircraft: &LiveAircraft, charged: Time) -> Time {
+    /// When an aircraft is ready that is prepared at a time: it must also be in service.
+    fn in_service(&self, aircraft: &LiveAircraft, prepared: Time) -> Time {
         match aircraft.out {
-            None => charged,
-            Some(OutOfService::Until(until)) => charged.max(until),
-            Some(OutOfService::UntilReported) => charged.max(self.scenario().operations.end + 1),
+            None => prepared,
+            Some(OutOfService::Until(until)) => prepared.max(until),
+            Some(OutOfService::UntilReported) => prepared.max(self.scenario().operations.end + 1),
         }
     }
 

@@ -348,19 +348,19 @@ class LandedEvent(TypedDict):
 
 
 class ChargingEvent(TypedDict):
-    """An aircraft on the ground is expected to be charged at a time."""
+    """An aircraft on the ground is expected to be ready at a time."""
 
     type: Literal["charging"]
     aircraft: str
     """The aircraft."""
     ready: Moment
-    """The expected end of charging."""
+    """The expected time."""
     time: NotRequired[Moment | None]
     """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
 class ReadyEvent(TypedDict):
-    """An aircraft is charged."""
+    """An aircraft is ready."""
 
     type: Literal["ready"]
     aircraft: str
@@ -371,7 +371,7 @@ class ReadyEvent(TypedDict):
 
 class DelayedEvent(TypedDict):
     """The next step of an aircraft is expected at another time: its departure if it has been dispatched, its
-    landing if it is in the air, the end of charging if it stands.
+    landing if it is in the air, the time at which it is ready if it stands.
     """
 
     type: Literal["delayed"]

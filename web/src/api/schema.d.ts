@@ -874,7 +874,7 @@ export interface components {
         } | {
             /** @description The aircraft. */
             aircraft: string;
-            /** @description The expected end of charging. */
+            /** @description The expected time. */
             ready: components["schemas"]["Moment"];
             time?: components["schemas"]["Moment"] | null;
             /** @enum {string} */

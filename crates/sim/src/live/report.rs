@@ -40,20 +40,20 @@ pub enum Report {
         /// keep no charge, and refuse it.
         charge_kwh: Option<f64>,
     },
-    /// An aircraft on the ground is expected to be charged at a time.
+    /// An aircraft on the ground is expected to be ready at a time.
     Charging {
         /// The aircraft.
         aircraft: AircraftIx,
         /// That time.
         ready: Time,
     },
-    /// An aircraft is charged.
+    /// An aircraft is ready.
     Ready {
         /// The aircraft.
         aircraft: AircraftIx,
     },
     /// The next event of an aircraft is expected at another time: its departure if it has been sent
-    /// off, its landing if it is in the air, the end of charging if it stands.
+    /// off, its landing if it is in the air, the time at which it is ready if it stands.
     Delayed {
         /// The aircraft.
         aircraft: AircraftIx,
@@ -178,7 +178,7 @@ pub enum Notice {
         /// The aircraft.
         aircraft: String,
     },
-    /// An aircraft left before it was expected to be charged, or to end its hold.
+    /// An aircraft left before it was expected to be ready.
     #[error(
         "aircraft {aircraft:?} is not ready before {ready}; the departure is recorded despite the violation"
     )]

@@ -145,11 +145,11 @@ impl LiveDay {
         ReportError::WrongPlace { aircraft: self.id(aircraft), is, report }
     }
 
-    /// Sets when an aircraft is charged, and with it when it is ready.
-    fn set_charged(&mut self, aircraft: AircraftIx, charged: Time) {
-        self.aircraft[aircraft.at()].charged = charged;
+    /// Sets when an aircraft is prepared, and with it when it is ready.
+    fn set_prepared(&mut self, aircraft: AircraftIx, prepared: Time) {
+        self.aircraft[aircraft.at()].prepared = prepared;
         let state = self.aircraft[aircraft.at()];
-        self.known.queue.set(aircraft, self.in_service(&state, charged));
+        self.known.queue.set(aircraft, self.in_service(&state, prepared));
     }
 
     fn decide(
@@ -187,7 +187,7 @@ impl LiveDay {
     /// An aircraft as it is before a decision.
     fn before(&self, aircraft: AircraftIx) -> Before {
         Before {
-            charged: self.aircraft[aircraft.at()].charged,
+            prepared: self.aircraft[aircraft.at()].prepared,
             arrival: self.known.arrival[aircraft.at()],
             battery: self.known.batteries.kept(aircraft),
             waited: self.known.stands.waits(aircraft),
@@ -200,7 +200,7 @@ impl LiveDay {
         let (period, flight) = (self.known.period, self.decisions.len());
         let waited = u16::try_from(waiting).map_or(row.passengers, |all| all.min(row.passengers));
         self.decisions.push(LiveDecision { row, period, waited, before, is_undone: false });
-        self.set_charged(row.aircraft, row.ready);
+        self.set_prepared(row.aircraft, row.ready);
         let state = &mut self.aircraft[row.aircraft.at()];
         state.undoable = Some(flight);
         if row.from != row.to {
@@ -227,7 +227,7 @@ impl LiveDay {
         self.known.batteries.restore(aircraft, before.battery);
         let state = &mut self.aircraft[aircraft.at()];
         (state.phase, state.undoable) = (Phase::Standing, None);
-        self.set_charged(aircraft, before.charged);
+        self.set_prepared(aircraft, before.prepared);
         self.is_stale = true;
         Ok(())
     }
@@ -251,7 +251,7 @@ impl LiveDay {
     ) -> Result<(), ReportError> {
         let state = self.state(aircraft)?;
         self.aircraft[aircraft.at()].out = out;
-        self.set_charged(aircraft, state.charged);
+        self.set_prepared(aircraft, state.prepared);
         Ok(())
     }
 }

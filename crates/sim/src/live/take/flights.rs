@@ -57,7 +57,7 @@ impl LiveDay {
 
     /// Why an aircraft should not have departed on any flight.
     fn not_ready(&self, aircraft: AircraftIx, time: Time) -> Option<Notice> {
-        let LiveAircraft { phase, charged, out, .. } = self.aircraft[aircraft.at()];
+        let LiveAircraft { phase, prepared, out, .. } = self.aircraft[aircraft.at()];
         // An aircraft that was sent off may depart, even if things have changed since.
         if phase != Phase::Standing {
             return None;
@@ -70,8 +70,8 @@ impl LiveDay {
         if is_out {
             return Some(Notice::DepartedOutOfService { aircraft: self.id(aircraft) });
         }
-        (time < charged)
-            .then(|| Notice::DepartedUnready { aircraft: self.id(aircraft), ready: charged })
+        (time < prepared)
+            .then(|| Notice::DepartedUnready { aircraft: self.id(aircraft), ready: prepared })
     }
 
     fn check_seats(
@@ -135,7 +135,7 @@ impl LiveDay {
         self.is_stale = true;
     }
 
-    /// Sets when a flight lands, and with it when its aircraft is charged and what that costs.
+    /// Sets when a flight lands, and with it when its aircraft is prepared and what that costs.
     fn set_arrival(&mut self, aircraft: AircraftIx, flight: usize, arrival: Time) {
         let row = &mut self.decisions[flight].row;
         let charge_s = row.ready.since(row.arrival);
@@ -143,9 +143,9 @@ impl LiveDay {
         let scenario = &self.known.scenario;
         row.energy_cost_usd =
             row.energy_kwh * scenario.energy_price_usd[scenario.period_at(arrival)];
-        let charged = row.ready;
+        let prepared = row.ready;
         self.known.arrival[aircraft.at()] = arrival;
-        self.set_charged(aircraft, charged);
+        self.set_prepared(aircraft, prepared);
         self.is_stale = true;
     }
 
@@ -174,7 +174,7 @@ impl LiveDay {
                 self.keep_charge(aircraft, time);
                 self.move_to(aircraft, at);
                 self.known.arrival[aircraft.at()] = time;
-                self.set_charged(aircraft, state.charged.max(time));
+                self.set_prepared(aircraft, state.prepared.max(time));
             }
             Phase::SentOff { flight, .. } | Phase::InTheAir { flight, .. } => {
                 if at != expected_at {
@@ -235,7 +235,7 @@ impl LiveDay {
         if self.state(aircraft)?.phase != Phase::Standing {
             return Err(self.wrong_place(aircraft, report));
         }
-        self.set_charged(aircraft, ready);
+        self.set_prepared(aircraft, ready);
         self.aircraft[aircraft.at()].undoable = None;
         let latest = self
             .decisions
