@@ -134,7 +134,7 @@ impl Batteries {
         second: u32,
     ) -> usize {
         let scale = &self.scales[kind.at() * self.vertiports + at.at()];
-        let charge = (arrival.mwh * scale.a_mwh >> CHARGE_BITS) as usize;
+        let charge = ((arrival.mwh * scale.a_mwh) >> CHARGE_BITS) as usize;
         let charged_s = u64::from(second - arrival.second);
         let part = scale.parts[charge.min(CHARGES - 1)] + charged_s * scale.a_second;
         ((part >> PART_BITS) as usize).min(PARTS - 1)
