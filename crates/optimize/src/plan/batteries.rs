@@ -11,7 +11,8 @@ use super::hop::{Arrival, Charge};
 pub(super) const PARTS: usize = 12;
 /// Charges whose time to charge is kept for telling parts apart.
 const CHARGES: usize = 256;
-/// Shifts of the numbers below the point, for charges and for parts: whole numbers are fast.
+/// Bits after the binary point in numbers of charges, and in numbers of parts. They are kept as
+/// whole numbers, which are faster to compare and round down.
 const CHARGE_BITS: u32 = 40;
 const PART_BITS: u32 = 32;
 
@@ -29,11 +30,11 @@ pub(super) struct Batteries {
 /// The parts of a full battery of a type at a vertiport, by the time that it takes to charge.
 #[derive(Debug)]
 struct Scale {
-    /// How many of the charges a milliwatt-hour is.
+    /// Charges in a milliwatt-hour, with [`CHARGE_BITS`] after the point.
     a_mwh: u64,
-    /// How many parts are charged in a second.
+    /// Parts that are charged in a second, with [`PART_BITS`] after the point.
     a_second: u64,
-    /// The part that each charge is in, not rounded.
+    /// The part that each charge is in, with [`PART_BITS`] after the point.
     parts: [u64; CHARGES],
 }
 
