@@ -40,10 +40,7 @@ impl Days {
     fn new(source: SourceArgument, split: &str) -> Result<Self, Failure> {
         let purpose = purpose_of(split)?;
         let source = match source {
-            SourceArgument::Networks(networks) if networks.is_empty() => {
-                return Err(Failure::argument("a list of networks must not be empty".to_owned()));
-            }
-            SourceArgument::Networks(networks) => Source::Networks(networks),
+            SourceArgument::Networks(networks) => Source::given(networks)?,
             SourceArgument::Drawn(name) => Source::drawn(&name)?,
         };
         Ok(Self { source, purpose })
@@ -112,6 +109,21 @@ enum SourceArgument {
 }
 
 impl Source {
+    fn given(networks: Vec<Network>) -> Result<Self, Failure> {
+        if networks.is_empty() {
+            return Err(Failure::argument("a list of networks must not be empty".to_owned()));
+        }
+        if let Some(Network { network, .. }) =
+            networks.iter().find(|network| !network.network.always_has_decisions())
+        {
+            return Err(Failure::argument(format!(
+                "network {:?} may draw days that have no decisions: with the lowest start_charge every battery is full only after operations end; raise start_charge or charge_kw",
+                network.name()
+            )));
+        }
+        Ok(Self::Networks(networks))
+    }
+
     fn drawn(name: &str) -> Result<Self, Failure> {
         if name == "random" {
             return Ok(Self::Random);

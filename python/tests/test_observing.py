@@ -154,6 +154,19 @@ def test_a_day_on_which_no_aircraft_is_full_in_time_is_refused() -> None:
         FleetVectorEnv(2).reset(options={"scenario": [scenario, scenario]})
 
 
+def test_a_network_that_may_draw_such_days_is_refused() -> None:
+    text = Network("paper").toml.replace("charge_kw = 150", "charge_kw = 6", 1)
+
+    def starting_with(share: float) -> Network:
+        charge = f"start_charge = [{share}, 0.5]\n\n[operations]"
+        return Network.from_toml(text.replace("[operations]", charge, 1))
+
+    FleetVectorEnv(2, starting_with(0.35)).reset(seed=1)
+    for environment in (FleetEnv, FleetVectorEnv):
+        with pytest.raises(vertifleet.Error, match="may draw days that have no decisions"):
+            environment(network=starting_with(0.34))
+
+
 def test_views_have_the_members_of_their_class() -> None:
     env = FleetEnv("disrupted")
     env.reset(seed=1)

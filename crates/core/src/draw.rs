@@ -8,7 +8,10 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::random::rounded_by_chance;
-use crate::{Day, DaySeed, Matrix, Network, Scenario, VertiportIx};
+use crate::{
+    AircraftType, ChargeRate, Charging, Day, DaySeed, Matrix, Network, Scenario, Vertiport,
+    VertiportIx, whole_mwh,
+};
 
 /// The random streams of a day. Their numbers are part of what a seed means, so they must not
 /// change.
@@ -23,6 +26,11 @@ enum Stream {
     Market = 7,
     Displaced = 8,
     StartCharges = 9,
+}
+
+/// A share of a battery, to the watt-hour.
+fn start_charge_kwh(share: f64, battery_kwh: f64) -> f64 {
+    ((1e3 * share * battery_kwh).round() / 1e3).min(battery_kwh)
 }
 
 impl Stream {
@@ -80,9 +88,27 @@ impl Network {
         for aircraft in &mut day.aircraft {
             let battery_kwh = day.aircraft_types[aircraft.kind.at()].battery_kwh;
             let share = low + (high - low) * random.random::<f64>();
-            let charge_kwh = ((1e3 * share * battery_kwh).round() / 1e3).min(battery_kwh);
-            aircraft.start_charge_kwh = Some(charge_kwh);
+            aircraft.start_charge_kwh = Some(start_charge_kwh(share, battery_kwh));
         }
+    }
+
+    /// Whether an aircraft decides on every day that this network may draw. On days that charge to
+    /// full none does if every battery is full only after operations end.
+    pub fn always_has_decisions(&self) -> bool {
+        let day = &self.idle_day;
+        let (Charging::ToFull, Some((low, _))) = (day.operations.charging, self.start_charge)
+        else {
+            return true;
+        };
+        let operations_s = f64::from(day.operations.end.since(day.operations.start));
+        // A second less, so that rounding makes no difference.
+        let is_full_in_time = |kind: &AircraftType, place: &Vertiport| {
+            let rate = ChargeRate::of(kind, place);
+            let battery = rate.battery(whole_mwh(start_charge_kwh(low, kind.battery_kwh)));
+            rate.to_full_s(battery, 0) <= operations_s - 1.0
+        };
+        let always = |kind| day.vertiports.iter().all(|place| is_full_in_time(kind, place));
+        day.fleet_types().into_iter().any(always)
     }
 
     /// Draws Q(i, j, t), pair by pair.

@@ -311,7 +311,7 @@ impl Scenario {
     }
 
     /// The types that the fleet has aircraft of.
-    fn fleet_types(&self) -> Vec<&AircraftType> {
+    pub(crate) fn fleet_types(&self) -> Vec<&AircraftType> {
         let types = self.aircraft_types.iter().enumerate();
         let flown =
             types.filter(|&(at, _)| self.aircraft.iter().any(|aircraft| aircraft.kind.at() == at));

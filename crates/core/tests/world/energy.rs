@@ -3,6 +3,7 @@
 use vertifleet_core::{Charging, Coded, Day, DaySeed, Network, Scenario};
 
 const SMALL: &str = include_str!("../data/small.json");
+const PAPER: &str = include_str!("../../../../networks/paper.toml");
 const QUICK: &str = include_str!("../../../../networks/new-york-quick.toml");
 
 /// The error of the network with a line in place of another, as it is printed.
@@ -55,6 +56,21 @@ fn a_day_with_these_members_reads_back_as_it_was_written() {
     // Start charges have a separate stream: all else is as with full batteries.
     let full = Network::from_toml(QUICK, "quick.toml").expect("a network").draw(seed);
     assert_eq!((&full.demand, full.aircraft[0].at), (&day.demand, day.aircraft[0].at));
+}
+
+#[test]
+fn a_network_knows_whether_each_of_its_days_has_a_decision() {
+    let has_decisions = |charging: &str, start_charge: &str| {
+        let operations = format!("{start_charge}\n[operations]\n{charging}");
+        let text = PAPER.replacen("[operations]", &operations, 1);
+        let text = text.replacen("charge_kw = 150", "charge_kw = 6", 1);
+        Network::from_toml(&text, "slow.toml").expect("a network").always_has_decisions()
+    };
+    // In the 12 hours of operations 72 of 110 kWh are charged.
+    assert!(has_decisions("", ""));
+    assert!(has_decisions("", "start_charge = [0.35, 0.5]"));
+    assert!(!has_decisions("", "start_charge = [0.34, 0.5]"));
+    assert!(has_decisions("charging = \"as_needed\"", "start_charge = [0, 0.5]"));
 }
 
 /// The warnings of the small day after a change to it.
