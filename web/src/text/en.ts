@@ -243,8 +243,7 @@ export const en = {
     holdHere: 'hold',
     impossible: 'Not possible',
     ruleReasons: {
-      out_of_range: (to: string, numbers: string) =>
-        `The flight to ${to} takes more energy than the battery holds${numbers}.`,
+      out_of_range: (to: string) => `A full battery does not last for the flight to ${to} and the reserve.`,
       no_corridor: (to: string) => `No corridor leads from here to ${to}.`,
       closed: (to: string) => `The route to ${to} is closed.`,
       no_stand_free: (to: string, numbers: string) =>

@@ -17,8 +17,9 @@ use vertifleet_testkit::{Postgres, draw};
 
 /// Clients that write at the same time, each its own events.
 const CLIENTS: usize = 4;
-/// Days that they write to in turn.
-const DAYS: usize = 2;
+/// The networks of the days that they write to in turn, and two vertiports of each.
+const DAYS: [(&str, [&str; 2]); 3] =
+    [("paper", ["V1", "V2"]), ("paper-quick", ["V1", "V2"]), ("new-york-quick", ["JFK", "LGA"])];
 /// Number of kills after which all events are checked, and new days begin: reading long days again
 /// after each kill would take most of the time.
 const KILLS_OF_A_ROUND: u32 = 50;
@@ -62,8 +63,9 @@ struct Client<'a> {
 /// The mark of the identical events that all clients send.
 const EQUAL: &str = "equal";
 
-fn booked() -> Value {
-    json!({"type": "booked", "period": "07:00:00", "from": "V1", "to": "V2", "passengers": 1})
+fn booked(day: usize) -> Value {
+    let (_, [from, to]) = DAYS[day];
+    json!({"type": "booked", "period": "07:00:00", "from": from, "to": to, "passengers": 1})
 }
 
 /// An event that was acknowledged: its day, its number, and its mark.
@@ -107,7 +109,7 @@ impl Client<'_> {
             let key = format!("{mark} of {}", days[0]);
             let aircraft = format!("A{:02}", client + 1);
             let (mark, body) = if number % 2 == 0 {
-                (EQUAL.to_owned(), booked())
+                (EQUAL.to_owned(), booked(at))
             } else {
                 let kind = "out_of_service";
                 let body = json!({"type": kind, "aircraft": aircraft, "reason": mark});
@@ -185,15 +187,14 @@ impl Trial<'_> {
         };
         let (stop, refused) = (AtomicBool::new(false), &outcome.refused);
         let client = || Client { agent: agent(), stop: &stop, refused };
-        let new_day = |number: usize| {
-            let network = ["paper", "paper-quick"][number % 2];
+        let new_day = |(number, (network, _)): (usize, (&str, _))| {
             let body = json!({"network": network, "policy": "greedy"});
             let key = format!("day {number} of kill {}", kills.start);
             let made = client().post(&instances(0), "/v1/days", &key, &body);
             let made = made.expect("the trial has not stopped yet");
             format!("/v1/days/{}", made["id"].as_str().expect("an id"))
         };
-        let days: Vec<String> = (0..DAYS).map(new_day).collect();
+        let days: Vec<String> = DAYS.into_iter().enumerate().map(new_day).collect();
         let acknowledged: Vec<Vec<Acknowledged>> = thread::scope(|scope| {
             let write = |number| {
                 let (client, instances, days) = (client(), instances(number), &days);
