@@ -162,7 +162,7 @@ impl Bound {
 
 /// Proves an upper bound on the profit of every schedule of a day. `step` is the length of the
 /// bound's slices in minutes, 1 to 60, and `levels` the number of levels of charge on days that
-/// charge as needed, 4 to 16. Shorter slices and more levels never give a looser bound, but take
+/// charge as needed, 4 to 64. Shorter slices and more levels never give a looser bound, but take
 /// longer.
 #[pyfunction]
 #[pyo3(

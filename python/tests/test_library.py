@@ -313,7 +313,7 @@ def test_more_levels_of_charge_lower_the_bound_of_a_day_that_charges_as_needed()
         (lambda day, paper: vertifleet.plan(day, steps=5, time_limit=5.0), "V451"),
         (lambda day, paper: vertifleet.plan(day, seed=-1), "V451"),
         (lambda day, paper: vertifleet.bound(day, step=-1), "V451"),
-        (lambda day, paper: vertifleet.bound(day, levels=17), "V505"),
+        (lambda day, paper: vertifleet.bound(day, levels=65), "V505"),
         (lambda day, paper: vertifleet.simulate(day, "random", seed=2**200), "V451"),
         (lambda day, paper: paper.draw(-1), "V451"),
         (lambda day, paper: paper.draw(2**40), "V118"),

@@ -740,7 +740,7 @@ def simulate(
 def bound(scenario: Scenario, *, step: SupportsIndex = 5, levels: SupportsIndex = 4) -> Bound:
     """Proves an upper bound on the profit of every schedule of a day. `step` is the length of the bound's
     slices in minutes, 1 to 60, and `levels` the number of levels of charge on days that charge as
-    needed, 4 to 16. Shorter slices and more levels never give a looser bound, but take longer.
+    needed, 4 to 64. Shorter slices and more levels never give a looser bound, but take longer.
     """
 
 def plan(

@@ -215,7 +215,7 @@ pub(crate) struct BoundArguments {
     pub(crate) scenarios: Vec<PathBuf>,
     #[arg(long, help = STEP, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
-    /// Levels of charge on days that charge as needed, 4 to 16; more give a lower bound and take
+    /// Levels of charge on days that charge as needed, 4 to 64; more give a lower bound and take
     /// longer
     #[arg(long, value_name = "N", default_value_t = 4)]
     pub(crate) levels: u16,

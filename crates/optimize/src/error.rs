@@ -44,10 +44,10 @@ pub enum Error {
     },
 
     /// V505 levels out of range. The levels of charge of a bound are not a whole number from 4 to
-    /// 16.
+    /// 64.
     ///
-    /// Fix: give a whole number from 4 to 16; 4 is usual.
-    #[error("the levels of charge must be a whole number from 4 to 16, found {found}")]
+    /// Fix: give a whole number from 4 to 64; 4 is usual.
+    #[error("the levels of charge must be a whole number from 4 to 64, found {found}")]
     Levels {
         /// The number of levels.
         found: u16,
