@@ -28,11 +28,6 @@ enum Stream {
     StartCharges = 9,
 }
 
-/// A share of a battery, to the watt-hour.
-fn start_charge_kwh(share: f64, battery_kwh: f64) -> f64 {
-    ((1e3 * share * battery_kwh).round() / 1e3).min(battery_kwh)
-}
-
 impl Stream {
     fn of(self, seed: DaySeed) -> ChaCha8Rng {
         let mut key = [0; 32];
@@ -157,6 +152,11 @@ impl Network {
             day.disturbances.outages = outages.draw(&day.operations, fleet, &mut random);
         }
     }
+}
+
+/// A share of a battery, to the watt-hour.
+fn start_charge_kwh(share: f64, battery_kwh: f64) -> f64 {
+    ((1e3 * share * battery_kwh).round() / 1e3).min(battery_kwh)
 }
 
 /// Where `aircraft` aircraft start: where they would if the vertiports had `start_stands`, or at

@@ -67,7 +67,7 @@ fn more_levels_of_charge_never_give_a_looser_bound() {
     let lower = (2_000..2_040_u32).into_par_iter().filter(|&number| {
         let day = any_energy_day(number.into(), Size { vertiports: 5, fleet: 8, hours: 5 });
         let step = Step::from_minutes(15).expect("a step");
-        let bounds = [4, 16, 64].map(|levels| {
+        let bounds = [4, 8, 16, 64].map(|levels| {
             let step = step.with_levels(levels).expect("levels");
             upper_bound(&day, step).expect("a small day").upper_bound_usd()
         });
