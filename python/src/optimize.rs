@@ -166,8 +166,8 @@ impl Bound {
 /// longer.
 #[pyfunction]
 #[pyo3(
-    signature = (scenario, *, step = WholeNumber::from(5), levels = WholeNumber::from(4)),
-    text_signature = "(scenario, *, step=5, levels=4)"
+    signature = (scenario, *, step = WholeNumber::from(5), levels = WholeNumber::from(64)),
+    text_signature = "(scenario, *, step=5, levels=64)"
 )]
 pub(crate) fn bound(
     py: Python<'_>,

@@ -737,7 +737,7 @@ def simulate(
     as for `compare`, which observes the day as in the environment of `network`.
     """
 
-def bound(scenario: Scenario, *, step: SupportsIndex = 5, levels: SupportsIndex = 4) -> Bound:
+def bound(scenario: Scenario, *, step: SupportsIndex = 5, levels: SupportsIndex = 64) -> Bound:
     """Proves an upper bound on the profit of every schedule of a day. `step` is the length of the bound's
     slices in minutes, 1 to 60, and `levels` the number of levels of charge on days that charge as
     needed, 4 to 64. Shorter slices and more levels never give a looser bound, but take longer.

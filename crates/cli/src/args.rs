@@ -215,9 +215,9 @@ pub(crate) struct BoundArguments {
     pub(crate) scenarios: Vec<PathBuf>,
     #[arg(long, help = STEP, value_name = "MIN", default_value_t = 5, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
-    /// Levels of charge on days that charge as needed, 4 to 64; more give a lower bound and take
-    /// longer
-    #[arg(long, value_name = "N", default_value_t = 4)]
+    /// Levels of charge on days that charge as needed, 4 to 64; fewer take less time and give a
+    /// higher bound
+    #[arg(long, value_name = "N", default_value_t = 64)]
     pub(crate) levels: u16,
     /// Also bound the mean profit without knowledge of take-off delays, on days drawn from this
     /// network

@@ -35,6 +35,7 @@ use vertifleet_core::{Scenario, Stop, Time, VertiportIx};
 
 use crate::Error;
 use descent::Found;
+use ladder::{Path, Relaxed, search};
 use market::Market;
 use prices::Prices;
 use slices::Slices;
@@ -43,7 +44,7 @@ use time_expanded_day::TimeExpandedDay;
 
 pub use designs::{DesignBound, day_of_passengers};
 pub use kept::kept_upper_bound;
-pub(crate) use ladder::{Relaxed, Watch, search};
+pub(crate) use ladder::Watch;
 pub(crate) use rest::{Rest, Way};
 pub use step::Step;
 pub use without_foresight::bound_without_foresight;
@@ -99,16 +100,17 @@ pub fn upper_bound_of_rest(
     ready: &[Time],
     step: Step,
 ) -> Result<Option<Bound>, Error> {
-    let bound = search(Relaxed::known(scenario, ready), step, &Unless { stopped })?;
+    let bound = search(Relaxed::known(scenario, ready), step, Path::Each, &Unless { stopped })?;
     Ok(bound.filter(|_| !stopped.is_requested()))
 }
 
-/// The shortest step for which a day is not too large; `None` if it is too large for all.
-pub(crate) fn finest_step(scenario: &Scenario) -> Option<Step> {
-    let fits = |step: &Step| {
-        TimeExpandedDay::fits(scenario, step.seconds(), step.most_levels(scenario)).is_ok()
-    };
-    STEPS.into_iter().rev().find(fits)
+/// The best bound with the shortest step and the most levels of charge for which the day is not too
+/// large, or until `watch` stops the search; `None` if that is before the first bound, or the day is
+/// too large for every step.
+pub(crate) fn finest_bound(scenario: &Scenario, watch: &dyn Watch) -> Option<Bound> {
+    let fits = |step: &Step| TimeExpandedDay::fits(scenario, step.seconds(), 1).is_ok();
+    let step = STEPS.into_iter().rev().find(fits)?;
+    search(Relaxed::known(scenario, &[]), step, Path::Most, watch).ok().flatten()
 }
 
 /// Ignores all progress, and only passes a request to stop on.

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use vertifleet_core::{Scenario, Stop};
 
-use crate::bound::{Bound, CENT_USD, Relaxed, Watch, finest_step, search};
+use crate::bound::{Bound, CENT_USD, Watch, finest_bound};
 
 /// The proof of a bound on a separate thread, with the finest slices for which the day is not too
 /// large. The best bound so far is available at any time, as soon as there is a first one.
@@ -160,8 +160,7 @@ pub(crate) const POLL_INTERVAL: Duration = Duration::from_millis(10);
 /// Searches for the bound with the finest slices for which the day is not too large. Finds nothing
 /// if it is too large for all.
 fn prove(scenario: &Scenario, watch: &Shared) {
-    let Some(step) = finest_step(scenario) else { return };
-    if let Ok(Some(bound)) = search(Relaxed::known(scenario, &[]), step, watch) {
+    if let Some(bound) = finest_bound(scenario, watch) {
         watch.has_found(&bound);
     }
 }

@@ -16,7 +16,7 @@ use super::time_expanded_day::{Flight, Start, TimeExpandedDay};
 use vertifleet_core::Stop;
 
 /// Seconds that are computed side by side, so that their worths so far stay in the fastest memory.
-const SIDE_BY_SIDE: usize = 256;
+const SIDE_BY_SIDE: usize = 512;
 
 /// The bound that prices prove, and the worth of being ready anywhere at any time at these prices.
 /// It is evaluated again and again without a new allocation.
@@ -195,7 +195,7 @@ impl WithSimd for LayerPass<'_> {
     fn with_simd<S: Simd>(mut self, _: S) -> bool {
         let slices = &self.day.slices;
         let day_s = slices.day_s() as usize;
-        for place in 0..self.day.places() {
+        for &place in self.day.reached(self.layer) {
             let over = -self.paid(slices.len(), self.day.vertiport(place));
             self.worths[place * self.stride..][..self.stride][day_s..].fill(over);
             if !self.within_slot.is_empty() {
@@ -206,6 +206,8 @@ impl WithSimd for LayerPass<'_> {
         // No flight and no hold begins and ends in the same piece, so everything that a piece needs
         // has been computed.
         let longest = SIDE_BY_SIDE.min(self.day.shortest_s as usize);
+        let only_falls = self.day.layers[self.layer].waits_freely && self.day.penalty.is_none();
+        let mut best = [0; SIDE_BY_SIDE];
         for slice in (0..slices.len()).rev() {
             let (first, mut past) = (second(slice), second(slice + 1));
             while past > first {
@@ -213,8 +215,13 @@ impl WithSimd for LayerPass<'_> {
                     return false;
                 }
                 let begin = first.max(past.saturating_sub(longest));
-                for place in 0..self.day.places() {
-                    self.work_out_piece(slice, place, begin, past);
+                let best = &mut best[..past - begin];
+                for &place in self.day.reached(self.layer) {
+                    if only_falls {
+                        self.work_out_falling_piece(slice, place, begin, best);
+                    } else {
+                        self.work_out_piece(slice, place, begin, best);
+                    }
                 }
                 past = begin;
             }
@@ -230,14 +237,14 @@ impl LayerPass<'_> {
         self.paid[slice * self.day.size() + at]
     }
 
-    /// Computes the seconds from `begin` until before `past`, all of which are in `slice`, from the
-    /// seconds after them.
+    /// Computes the seconds from `begin` on, as many as `best` has room for, all of which are in
+    /// `slice`, from the seconds after them.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
-    fn work_out_piece(&mut self, slice: usize, place: usize, begin: usize, past: usize) {
+    fn work_out_piece(&mut self, slice: usize, place: usize, begin: usize, best: &mut [i64]) {
         let from = self.day.vertiport(place);
-        let mut best = [i64::MIN; SIDE_BY_SIDE];
-        let best = &mut best[..past - begin];
+        let past = begin + best.len();
+        best.fill(i64::MIN);
         let past_slot = self.day.penalty.as_ref().map_or(0, |penalty| penalty.past_slot(begin));
         let stays = self.paid(slice, from);
         let held = self.day.held(self.layer, place);
@@ -266,6 +273,40 @@ impl LayerPass<'_> {
             let afterwards = own[past];
             wait_freely(&mut own[begin..past], afterwards);
         }
+    }
+
+    /// Does the same as [`work_out_piece`](Self::work_out_piece) where aircraft may wait freely and
+    /// owe nothing. Every worth less what has been paid then only falls with time. So the first
+    /// entry of a choice is its highest and the last one of `best` the lowest, and a choice whose
+    /// first entry is no higher than that is left out.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
+    fn work_out_falling_piece(
+        &mut self,
+        slice: usize,
+        place: usize,
+        begin: usize,
+        best: &mut [i64],
+    ) {
+        let (day_s, last) = (self.day.slices.day_s() as usize, best.len() - 1);
+        let at = |to: usize, takes_s: u32| to * self.stride + (begin + takes_s as usize).min(day_s);
+        let own = place * self.stride + begin;
+        let waits = self.worths[own + best.len()];
+        let held = at(self.day.held(self.layer, place), self.day.hold_s);
+        for (best, held) in best.iter_mut().zip(&self.worths[held..]) {
+            *best = waits.max(*held);
+        }
+        let stays = self.paid(slice, self.day.vertiport(place));
+        let flights = self.day.flights(slice, self.layer, place);
+        let earned = &self.earned[self.day.positions(slice, self.layer, place)];
+        for (flight, earned) in flights.iter().zip(earned) {
+            let flies = earned + self.paid(slice, flight.to.at()) - stays;
+            let to = at(self.day.place(flight.to.at(), flight.level), flight.block_s);
+            if flies + self.worths[to] > best[last] {
+                raise_to(best, &self.worths[to..], flies);
+            }
+        }
+        self.worths[own..own + best.len()].copy_from_slice(best);
     }
 
     /// Raises each entry of `best` to the worth of another choice: `gain`, plus the worth at `to`

@@ -90,9 +90,11 @@ fn path(scenario: &Scenario, step: Step, folder: &Path) -> PathBuf {
     let mut hasher = SipHasher24::new();
     hasher.write_u64(VERSION);
     hasher.write_u32(step.seconds());
-    // Bounds with the usual levels keep the names that bounds had before there were levels.
-    if step.levels != LEVELS[0] {
-        hasher.write_u16(step.levels);
+    // Days that charge to full keep the names that they had before there were levels.
+    if let [.., most] = step.all_levels(scenario)
+        && *most > 1
+    {
+        hasher.write_u16(*most);
     }
     hasher.write(scenario.to_json().as_bytes());
     let mut name = String::from("bound-");

@@ -3,10 +3,14 @@
 //!
 //! The path to the requested slices passes through all coarser ones (`CUTS`) and does the same work
 //! in each for every request. The result is the best bound that was proven on the path, so a
-//! shorter step never gives a looser bound. On days that charge as needed, the finest slices come
-//! again with more levels of charge, from the fewest on. In each cut, prices are first searched for
-//! on a clock that ticks once a minute, where a step takes a fraction of the time and proves
-//! nothing, and then to the second, where every step proves a bound.
+//! shorter step never gives a looser bound. On days that charge as needed, all slices but the
+//! coarsest come once for each number of levels of charge, from the fewest on. The prices in some
+//! number of levels never depend on those in more, so more levels never give a looser bound either.
+//! On each rung, prices are first searched for on a clock that ticks once a minute, where a step
+//! takes a fraction of the time and proves nothing, and then to the second, where every step proves
+//! a bound.
+
+use std::collections::BTreeMap;
 
 use vertifleet_core::{Scenario, Stop, Time};
 
@@ -15,7 +19,7 @@ use super::descent::Descent;
 use super::penalty::Penalty;
 use super::prices::{Pace, Prices};
 use super::slices::Slices;
-use super::step::{LEVELS, STEPS, Step};
+use super::step::{STEPS, Step};
 use super::time_expanded_day::TimeExpandedDay;
 use crate::Error;
 
@@ -59,26 +63,49 @@ pub(super) const CUTS: [Cut; 5] = [
     },
 ];
 
+/// The longest slices that are searched in with levels of charge, minutes. Coarser ones lose far more
+/// than levels gain.
+const LONGEST_WITH_LEVELS: u32 = 15;
+/// The steps of the first search with levels, and of those that begin with its prices.
+const FIRST_WITH_LEVELS: (u32, u32) = (300, 20);
+const LATER_WITH_LEVELS: (u32, u32) = (150, 20);
+
+/// The levels of charge with which a path passes through the slices.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Path {
+    /// Each number of levels, so that the bounds of several paths can be compared.
+    Each,
+    /// Only the most levels, which is faster.
+    Most,
+}
+
+/// A search with slices of one length and one number of levels of charge.
+struct Rung {
+    step: Step,
+    levels: u16,
+    on_coarse_clock: Descent,
+    to_the_second: Descent,
+}
+
 /// The day that is bounded.
 #[derive(Clone, Copy)]
-pub(crate) struct Relaxed<'a> {
-    pub(crate) scenario: &'a Scenario,
+pub(super) struct Relaxed<'a> {
+    pub(super) scenario: &'a Scenario,
     /// When aircraft decide first; those past its end are ready from the start.
-    pub(crate) ready: &'a [Time],
-    /// Number of levels of charge, on days that charge as needed.
-    pub(super) levels: u16,
+    pub(super) ready: &'a [Time],
     /// The payments of aircraft for knowing delays, for a bound without foresight.
     pub(super) penalty: Option<&'a Penalty>,
 }
 
 impl<'a> Relaxed<'a> {
     /// A day that is known in full.
-    pub(crate) fn known(scenario: &'a Scenario, ready: &'a [Time]) -> Self {
-        Self { scenario, ready, levels: 1, penalty: None }
+    pub(super) fn known(scenario: &'a Scenario, ready: &'a [Time]) -> Self {
+        Self { scenario, ready, penalty: None }
     }
 
-    pub(super) fn day(&self, step: Step) -> Result<TimeExpandedDay, Error> {
-        let mut day = TimeExpandedDay::of(self.scenario, self.ready, step.seconds(), self.levels)?;
+    fn day(&self, rung: &Rung) -> Result<TimeExpandedDay, Error> {
+        let (step_s, levels) = (rung.step.seconds(), rung.levels);
+        let mut day = TimeExpandedDay::of(self.scenario, self.ready, step_s, levels)?;
         day.penalty = self.penalty.cloned();
         Ok(day)
     }
@@ -96,53 +123,82 @@ pub(crate) trait Watch: Sync {
     fn is_lowest(&self, bound_usd: f64) -> bool;
 }
 
-/// The best bound that is proven on the path to slices of `step`, or until `watch` stops the
-/// search; `None` if that is before the first bound.
+/// The best bound that is proven on a path to slices of `step`, or until `watch` stops the search;
+/// `None` if that is before the first bound.
 ///
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step.
-pub(crate) fn search(
+pub(super) fn search(
     relaxed: Relaxed<'_>,
     step: Step,
+    path: Path,
     watch: &dyn Watch,
 ) -> Result<Option<Bound>, Error> {
-    TimeExpandedDay::fits(relaxed.scenario, step.seconds(), step.most_levels(relaxed.scenario))?;
-    let cuts = || CUTS.iter().filter(|cut| step.minutes <= cut.step.minutes);
-    let most_levels = step.most_levels(relaxed.scenario);
-    let levels = || LEVELS.iter().filter(|&&levels| levels <= most_levels);
-    let finest = cuts().next_back().expect("a step is one of the cuts");
-    let in_all = cuts().map(|cut| cut.work(relaxed.scenario, 1)).sum::<f64>()
-        + levels().map(|&levels| finest.work(relaxed.scenario, levels)).sum::<f64>();
+    TimeExpandedDay::fits(relaxed.scenario, step.seconds(), 1)?;
+    let rungs = rungs(relaxed.scenario, step, path);
+    let in_all = rungs.iter().map(|rung| rung.work(relaxed.scenario)).sum();
     let mut search = Search { relaxed, watch, best: None, done: 0.0, in_all };
-    let mut before = None;
-    for cut in cuts() {
-        before = search.rise(cut, before)?;
-        if before.is_none() {
+    // The prices that were found last, by number of levels.
+    let mut found: BTreeMap<u16, (Slices, Prices)> = BTreeMap::new();
+    let mut is_final = true;
+    for rung in &rungs {
+        let before = found.get(&rung.levels).or_else(|| found.values().next_back());
+        let Some(prices) = search.rise(rung, before)? else {
+            is_final = false;
             break;
-        }
+        };
+        found.insert(rung.levels, prices);
     }
-    for &levels in levels() {
-        if before.is_none() {
-            break;
-        }
-        search.relaxed.levels = levels;
-        before = search.rise(finest, before)?;
-    }
-    if before.is_some() {
+    if is_final {
         watch.has_come(1.0);
     }
     Ok(search.best.map(|best| {
-        let is_final = before.is_some() || watch.is_lowest(best.upper_bound_usd());
+        let is_final = is_final || watch.is_lowest(best.upper_bound_usd());
         Bound { is_final, ..best }
     }))
 }
 
+/// The rungs of a path to slices of `step`.
+fn rungs(scenario: &Scenario, step: Step, path: Path) -> Vec<Rung> {
+    let cuts = CUTS.iter().filter(|cut| step.minutes <= cut.step.minutes);
+    let rungs_of = |cut: &Cut| -> Vec<Rung> {
+        let mut levels = Step { minutes: cut.step.minutes, ..step }.all_levels(scenario);
+        if path == Path::Most {
+            levels = &levels[levels.len() - 1..];
+        }
+        if levels == [1] || cut.step.minutes > LONGEST_WITH_LEVELS {
+            return vec![cut.with_one_level()];
+        }
+        let is_first = |at| at == 0 && cut.step.minutes == LONGEST_WITH_LEVELS;
+        let rung = |(at, &levels)| cut.with_levels(levels, is_first(at));
+        levels.iter().enumerate().map(rung).collect()
+    };
+    cuts.flat_map(rungs_of).collect()
+}
+
 impl Cut {
+    fn with_one_level(&self) -> Rung {
+        let Self { step, on_coarse_clock, to_the_second } = *self;
+        Rung { step, levels: 1, on_coarse_clock, to_the_second }
+    }
+
+    fn with_levels(&self, levels: u16, is_first: bool) -> Rung {
+        let (coarse, fine) = if is_first { FIRST_WITH_LEVELS } else { LATER_WITH_LEVELS };
+        Rung {
+            step: self.step,
+            levels,
+            on_coarse_clock: Descent { steps: coarse, ..self.on_coarse_clock },
+            to_the_second: Descent { steps: fine, ..self.to_the_second },
+        }
+    }
+}
+
+impl Rung {
     /// The approximate number of comparisons in all evaluations for each pair of vertiports.
-    fn work(&self, scenario: &Scenario, levels: u16) -> f64 {
+    fn work(&self, scenario: &Scenario) -> f64 {
         let slices = Slices::of(scenario, self.step.seconds());
-        f64::from(self.on_coarse_clock.steps) * comparisons(&slices, TICK_S, levels)
-            + f64::from(self.to_the_second.steps) * comparisons(&slices, 1, levels)
+        f64::from(self.on_coarse_clock.steps) * comparisons(&slices, TICK_S, self.levels)
+            + f64::from(self.to_the_second.steps) * comparisons(&slices, 1, self.levels)
     }
 }
 
@@ -163,46 +219,46 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Searches in slices of one length, starting with the prices that were found in coarser ones.
-    /// Returns the prices to continue with, or `None` if the search is to end.
+    /// Searches on one rung, starting with prices that were found before. Returns the prices to
+    /// continue with, or `None` if the search is to end.
     fn rise(
         &mut self,
-        cut: &Cut,
-        before: Option<(Slices, Prices)>,
+        rung: &Rung,
+        before: Option<&(Slices, Prices)>,
     ) -> Result<Option<(Slices, Prices)>, Error> {
-        let slices = Slices::of(self.relaxed.scenario, cut.step.seconds());
+        let slices = Slices::of(self.relaxed.scenario, rung.step.seconds());
         let relaxed = self.relaxed;
-        let day = || relaxed.day(cut.step);
+        let day = || relaxed.day(rung);
         let size = self.relaxed.scenario.vertiports.len();
         let start = if let Some((coarser, prices)) = before {
-            Some(prices.in_slices(&coarser, &slices, size))
+            Some(prices.in_slices(coarser, &slices, size))
         } else {
             // Any prices prove a bound, so the first ones give one at once.
             let day = day()?;
             let first = Prices::first(&day);
-            self.prove(cut, &day, Descent { steps: 0, ..cut.to_the_second }, &first)
+            self.prove(rung, &day, Descent { steps: 0, ..rung.to_the_second }, &first)
         };
         let coarse = day()?.on_coarse_clock(TICK_S);
-        let found = start.and_then(|start| self.search_coarsely(cut, &coarse, &slices, &start));
+        let found = start.and_then(|start| self.search_coarsely(rung, &coarse, &slices, &start));
         drop(coarse);
         let Some(found) = found else { return Ok(None) };
-        let prices = self.prove(cut, &day()?, cut.to_the_second, &found);
+        let prices = self.prove(rung, &day()?, rung.to_the_second, &found);
         Ok(prices.map(|prices| (slices, prices)))
     }
 
     /// Searches for prices on the coarse clock.
     fn search_coarsely(
         &mut self,
-        cut: &Cut,
+        rung: &Rung,
         coarse: &TimeExpandedDay,
         slices: &Slices,
         start: &Prices,
     ) -> Option<Prices> {
         let (pace, step) = (Pace::of(slices), comparisons(slices, TICK_S, coarse.levels));
         let done = self.done;
-        self.done += f64::from(cut.on_coarse_clock.steps) * step;
+        self.done += f64::from(rung.on_coarse_clock.steps) * step;
         let (watch, in_all, mut steps) = (self.watch, self.in_all, 0.0);
-        let found = cut.on_coarse_clock.run(coarse, &pace, start, watch.stopped(), &mut |_| {
+        let found = rung.on_coarse_clock.run(coarse, &pace, start, watch.stopped(), &mut |_| {
             watch.has_come((done + steps * step) / in_all);
             steps += 1.0;
             true
@@ -214,7 +270,7 @@ impl Search<'_> {
     /// is kept. Returns the prices to continue with, or `None` if the search is to end.
     fn prove(
         &mut self,
-        cut: &Cut,
+        rung: &Rung,
         day: &TimeExpandedDay,
         descent: Descent,
         start: &Prices,
@@ -227,7 +283,7 @@ impl Search<'_> {
             watch.has_come((done + steps * step) / in_all);
             steps += 1.0;
             if best.as_ref().is_none_or(|best| found.bound(day) < best.micro_usd) {
-                let bound = Bound::of(cut.step, day, found);
+                let bound = Bound::of(rung.step, day, found);
                 watch.has_found(&bound);
                 *best = Some(bound);
             }

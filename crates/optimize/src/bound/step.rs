@@ -2,6 +2,7 @@
 
 use vertifleet_core::{Charging, Scenario};
 
+use super::time_expanded_day::TimeExpandedDay;
 use crate::Error;
 
 /// The longest time over which prices stay the same: a whole number of minutes from 1 to 60. A
@@ -16,18 +17,19 @@ pub struct Step {
     pub(super) levels: u16,
 }
 
-/// All numbers of levels of charge above 1, from the fewest. The fewest are the default, because
-/// more take long: the bound of `paper-quick` is 3.5 % lower with 64, that of `new-york-quick`
-/// 0.5 %, in 11 to 15 times the time.
-pub(super) const LEVELS: [u16; 4] = [4, 8, 16, 64];
+/// All numbers of levels of charge above 1, from the fewest.
+pub(super) const LEVELS: [u16; 3] = [4, 16, MOST_LEVELS];
+/// The default. With 64 levels the bound of `new-york-quick` is 0.5 % lower than with 4, that of
+/// `paper-quick` 4 %; twice as many would lower it half as much again, in twice the time and memory.
+const MOST_LEVELS: u16 = 64;
 
 /// All steps, from the longest to the shortest.
 pub(super) const STEPS: [Step; 5] = [
-    Step { minutes: 60, levels: LEVELS[0] },
-    Step { minutes: 15, levels: LEVELS[0] },
-    Step { minutes: 5, levels: LEVELS[0] },
-    Step { minutes: 3, levels: LEVELS[0] },
-    Step { minutes: 1, levels: LEVELS[0] },
+    Step { minutes: 60, levels: MOST_LEVELS },
+    Step { minutes: 15, levels: MOST_LEVELS },
+    Step { minutes: 5, levels: MOST_LEVELS },
+    Step { minutes: 3, levels: MOST_LEVELS },
+    Step { minutes: 1, levels: MOST_LEVELS },
 ];
 
 impl Step {
@@ -40,22 +42,30 @@ impl Step {
         step.filter(|_| minutes <= 60).ok_or(Error::Step { found: minutes })
     }
 
-    /// The same step with more levels of charge than the default of 4 on days that charge as
-    /// needed: 4, 8, 16 or 64, the most of these that are no more than `levels`. More levels never
-    /// give a looser bound, and take longer.
+    /// The same step with no more than some levels of charge on days that charge as needed: 4, 16 or
+    /// 64, the most of these that are no more than `levels` and for which the day is not too large.
+    /// More levels never give a looser bound, and take longer.
     ///
     /// # Errors
     /// [`Error::Levels`] unless `levels` is from 4 to 64.
     pub fn with_levels(self, levels: u16) -> Result<Self, Error> {
-        let most = *LEVELS.last().expect("there are some");
         let allowed = LEVELS.into_iter().rev().find(|&allowed| allowed <= levels);
-        let levels = allowed.filter(|_| levels <= most).ok_or(Error::Levels { found: levels })?;
+        let allowed = allowed.filter(|_| levels <= MOST_LEVELS);
+        let levels = allowed.ok_or(Error::Levels { found: levels })?;
         Ok(Self { levels, ..self })
     }
 
-    /// The most levels of charge of a day: 1 if it charges to full.
-    pub(super) fn most_levels(self, scenario: &Scenario) -> u16 {
-        if scenario.operations.charging == Charging::AsNeeded { self.levels } else { 1 }
+    /// The numbers of levels of charge with which a day is searched, one after the other: 1 if it
+    /// charges to full, or is too large for more.
+    pub(super) fn all_levels(self, scenario: &Scenario) -> &'static [u16] {
+        let as_needed = scenario.operations.charging == Charging::AsNeeded;
+        let fits = |&levels: &u16| {
+            levels <= self.levels && TimeExpandedDay::fits(scenario, self.seconds(), levels).is_ok()
+        };
+        match LEVELS.iter().take_while(|levels| as_needed && fits(levels)).count() {
+            0 => &[1],
+            number => &LEVELS[..number],
+        }
     }
 
     /// The length of the slices, seconds.
@@ -67,6 +77,6 @@ impl Step {
 impl Default for Step {
     /// A step of 5 minutes.
     fn default() -> Self {
-        Self { minutes: 5, levels: LEVELS[0] }
+        Self { minutes: 5, levels: MOST_LEVELS }
     }
 }

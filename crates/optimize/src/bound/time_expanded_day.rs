@@ -105,6 +105,8 @@ pub(super) struct TimeExpandedDay {
     pub(super) charging: ChargingTime,
     /// By layer, vertiport, then level: the level after a hold.
     holds: Vec<Level>,
+    /// By layer: the places that its aircraft may reach, in order.
+    reached: Vec<Vec<usize>>,
     /// The payments of aircraft for knowing delays, for a bound without foresight.
     pub(super) penalty: Option<Penalty>,
     flights: Vec<Flight>,
@@ -146,6 +148,7 @@ impl TimeExpandedDay {
             levels,
             charging,
             holds: holds(of_charge, &layers, scenario.vertiports.len()),
+            reached: Vec::new(),
             penalty: None,
             flights: Vec::new(),
             uses: Vec::new(),
@@ -156,7 +159,30 @@ impl TimeExpandedDay {
         };
         day.add_flights(scenario, &legs, of_charge);
         day.market.find_choosing_blocks();
+        day.reached = (0..day.layers.len()).map(|layer| day.reached_by(layer)).collect();
         Ok(day)
+    }
+
+    /// The places that aircraft of a layer may reach from their starts, or from any vertiport with
+    /// a full battery, as in other designs.
+    fn reached_by(&self, layer: usize) -> Vec<usize> {
+        let mut is_reached = vec![false; self.places()];
+        let full = (0..self.size()).map(|at| self.place(at, self.full()));
+        let starts = self.layers[layer].starts.iter();
+        let mut next: Vec<usize> =
+            full.chain(starts.map(|start| self.place(start.at, start.level))).collect();
+        while let Some(place) = next.pop() {
+            if std::mem::replace(&mut is_reached[place], true) {
+                continue;
+            }
+            next.push(self.held(layer, place));
+            for slice in 0..self.slices.len() {
+                let flights = self.flights(slice, layer, place).iter();
+                let reached = flights.map(|flight| self.place(flight.to.at(), flight.level));
+                next.extend(reached.filter(|&to| !is_reached[to]));
+            }
+        }
+        (0..self.places()).filter(|&place| is_reached[place]).collect()
     }
 
     /// Checks that a day is not too large for slices of at most `step_s` seconds.
@@ -169,7 +195,9 @@ impl TimeExpandedDay {
         let size = scenario.vertiports.len();
         let levels = usize::from(levels);
         let flights = slices.len() * pairs(&Legs::of(scenario), &layers, size) * levels;
-        let places = layers.len() * size * levels * slices.day_s() as usize;
+        // With an outage, aircraft are full after their first flight.
+        let of_layer = |layer: &Layer| if layer.has_outages { 1 } else { levels };
+        let places = layers.iter().map(of_layer).sum::<usize>() * size * slices.day_s() as usize;
         if flights <= MOST_FLIGHTS && places <= MOST_PLACES {
             return Ok(());
         }
@@ -294,6 +322,11 @@ impl TimeExpandedDay {
     #[inline]
     pub(super) fn vertiport(&self, place: usize) -> usize {
         place / usize::from(self.levels)
+    }
+
+    /// The places that aircraft of a layer may reach, in order.
+    pub(super) fn reached(&self, layer: usize) -> &[usize] {
+        &self.reached[layer]
     }
 
     /// The highest level of charge.
