@@ -296,8 +296,8 @@ def test_the_shipped_models_say_what_they_are() -> None:
 
 def test_more_levels_of_charge_lower_the_bound_of_a_day_that_charges_as_needed() -> None:
     day = Network("paper-quick").draw(1)
-    usual, finer = (vertifleet.bound(day, step=60, levels=levels) for levels in (4, 8))
-    assert finer.upper_bound_usd < usual.upper_bound_usd
+    few, many = (vertifleet.bound(day, step=15, levels=levels) for levels in (4, 16))
+    assert many.upper_bound_usd < few.upper_bound_usd
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ pub enum Error {
     /// V505 levels out of range. The levels of charge of a bound are not a whole number from 4 to
     /// 64.
     ///
-    /// Fix: give a whole number from 4 to 64; 4 is usual.
+    /// Fix: give a whole number from 4 to 64; 64 is usual.
     #[error("the levels of charge must be a whole number from 4 to 64, found {found}")]
     Levels {
         /// The number of levels.

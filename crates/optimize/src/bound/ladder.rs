@@ -3,10 +3,9 @@
 //!
 //! The path to the requested slices passes through all coarser ones (`CUTS`) and does the same work
 //! in each for every request. The result is the best bound that was proven on the path, so a
-//! shorter step never gives a looser bound. On days that charge as needed, all slices but the
-//! coarsest come once for each number of levels of charge, from the fewest on. The prices in some
-//! number of levels never depend on those in more, so more levels never give a looser bound either.
-//! On each rung, prices are first searched for on a clock that ticks once a minute, where a step
+//! shorter step never gives a looser bound. On days that charge as needed, each cut comes once for
+//! each number of levels of charge, from the fewest on. The prices in some number of levels never
+//! depend on those in more, so more levels never give a looser bound either. On each rung, prices are first searched for on a clock that ticks once a minute, where a step
 //! takes a fraction of the time and proves nothing, and then to the second, where every step proves
 //! a bound.
 
@@ -29,6 +28,8 @@ pub(super) const TICK_S: u32 = 60;
 /// Slices of one length, and the effort of searching in them.
 pub(super) struct Cut {
     pub(super) step: Step,
+    /// The most levels of charge that are worth their time in these slices.
+    most_levels: u16,
     pub(super) on_coarse_clock: Descent,
     to_the_second: Descent,
 }
@@ -38,37 +39,40 @@ pub(super) struct Cut {
 pub(super) const CUTS: [Cut; 5] = [
     Cut {
         step: STEPS[0],
+        most_levels: 1,
         on_coarse_clock: Descent { steps: 200, first: 0.05, enough: 5e-5 },
         to_the_second: Descent { steps: 30, first: 0.003, enough: 1e-5 },
     },
     Cut {
         step: STEPS[1],
+        most_levels: 16,
         on_coarse_clock: Descent { steps: 500, first: 0.02, enough: 5e-5 },
         to_the_second: Descent { steps: 60, first: 0.003, enough: 1e-5 },
     },
     Cut {
         step: STEPS[2],
+        most_levels: 64,
         on_coarse_clock: Descent { steps: 300, first: 0.01, enough: 5e-5 },
         to_the_second: Descent { steps: 120, first: 0.003, enough: 1e-5 },
     },
     Cut {
         step: STEPS[3],
+        most_levels: 64,
         on_coarse_clock: Descent { steps: 300, first: 0.01, enough: 5e-5 },
         to_the_second: Descent { steps: 250, first: 0.003, enough: 1e-5 },
     },
     Cut {
         step: STEPS[4],
+        most_levels: 64,
         on_coarse_clock: Descent { steps: 200, first: 0.01, enough: 5e-5 },
         to_the_second: Descent { steps: 200, first: 0.003, enough: 1e-5 },
     },
 ];
 
-/// The longest slices that are searched in with levels of charge, minutes. Coarser ones lose far more
-/// than levels gain.
-const LONGEST_WITH_LEVELS: u32 = 15;
-/// The steps of the first search with levels, and of those that begin with its prices.
+/// The most steps of the first search with several levels on the coarse clock and to the second,
+/// and those of each following one, which begins with good prices.
 const FIRST_WITH_LEVELS: (u32, u32) = (300, 20);
-const LATER_WITH_LEVELS: (u32, u32) = (150, 20);
+const LATER_WITH_LEVELS: (u32, u32) = (150, 40);
 
 /// The levels of charge with which a path passes through the slices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -160,36 +164,29 @@ pub(super) fn search(
 
 /// The rungs of a path to slices of `step`.
 fn rungs(scenario: &Scenario, step: Step, path: Path) -> Vec<Rung> {
-    let cuts = CUTS.iter().filter(|cut| step.minutes <= cut.step.minutes);
-    let rungs_of = |cut: &Cut| -> Vec<Rung> {
-        let mut levels = Step { minutes: cut.step.minutes, ..step }.all_levels(scenario);
-        if path == Path::Most {
-            levels = &levels[levels.len() - 1..];
+    let mut rungs = Vec::new();
+    let mut steps = FIRST_WITH_LEVELS;
+    for cut in CUTS.iter().filter(|cut| step.minutes <= cut.step.minutes) {
+        let most = cut.most_levels.min(step.levels);
+        let all = Step { levels: most, ..cut.step }.all_levels(scenario);
+        let levels = if path == Path::Most { &all[all.len() - 1..] } else { all };
+        for &levels in levels {
+            let mut rung = cut.with_one_level();
+            if levels > 1 {
+                rung.levels = levels;
+                (rung.on_coarse_clock.steps, rung.to_the_second.steps) = steps;
+                steps = LATER_WITH_LEVELS;
+            }
+            rungs.push(rung);
         }
-        if levels == [1] || cut.step.minutes > LONGEST_WITH_LEVELS {
-            return vec![cut.with_one_level()];
-        }
-        let is_first = |at| at == 0 && cut.step.minutes == LONGEST_WITH_LEVELS;
-        let rung = |(at, &levels)| cut.with_levels(levels, is_first(at));
-        levels.iter().enumerate().map(rung).collect()
-    };
-    cuts.flat_map(rungs_of).collect()
+    }
+    rungs
 }
 
 impl Cut {
     fn with_one_level(&self) -> Rung {
-        let Self { step, on_coarse_clock, to_the_second } = *self;
+        let Self { step, on_coarse_clock, to_the_second, .. } = *self;
         Rung { step, levels: 1, on_coarse_clock, to_the_second }
-    }
-
-    fn with_levels(&self, levels: u16, is_first: bool) -> Rung {
-        let (coarse, fine) = if is_first { FIRST_WITH_LEVELS } else { LATER_WITH_LEVELS };
-        Rung {
-            step: self.step,
-            levels,
-            on_coarse_clock: Descent { steps: coarse, ..self.on_coarse_clock },
-            to_the_second: Descent { steps: fine, ..self.to_the_second },
-        }
     }
 }
 

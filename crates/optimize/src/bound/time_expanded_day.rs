@@ -5,7 +5,7 @@
 //! outage today form a separate layer, in which outages are dropped and waiting is free. The cost
 //! of a flight depends on the slice in which it begins, never on the second within it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use vertifleet_core::{
@@ -157,32 +157,29 @@ impl TimeExpandedDay {
             layers,
             group_of,
         };
+        day.reached = (0..day.layers.len()).map(|layer| day.reached_by(layer)).collect();
         day.add_flights(scenario, &legs, of_charge);
         day.market.find_choosing_blocks();
-        day.reached = (0..day.layers.len()).map(|layer| day.reached_by(layer)).collect();
         Ok(day)
     }
 
-    /// The places that aircraft of a layer may reach from their starts, or from any vertiport with
-    /// a full battery, as in other designs.
+    /// The places that aircraft of a layer may reach, in order. With an outage, a flight leads to a
+    /// full battery, so aircraft only have another level at their start, and after holds there.
+    /// Aircraft of other designs start full at any vertiport.
     fn reached_by(&self, layer: usize) -> Vec<usize> {
-        let mut is_reached = vec![false; self.places()];
-        let full = (0..self.size()).map(|at| self.place(at, self.full()));
-        let starts = self.layers[layer].starts.iter();
-        let mut next: Vec<usize> =
-            full.chain(starts.map(|start| self.place(start.at, start.level))).collect();
-        while let Some(place) = next.pop() {
-            if std::mem::replace(&mut is_reached[place], true) {
-                continue;
-            }
-            next.push(self.held(layer, place));
-            for slice in 0..self.slices.len() {
-                let flights = self.flights(slice, layer, place).iter();
-                let reached = flights.map(|flight| self.place(flight.to.at(), flight.level));
-                next.extend(reached.filter(|&to| !is_reached[to]));
+        let Layer { has_outages, starts, .. } = &self.layers[layer];
+        if !has_outages {
+            return (0..self.places()).collect();
+        }
+        let mut reached: BTreeSet<usize> =
+            (0..self.size()).map(|at| self.place(at, self.full())).collect();
+        for start in starts {
+            let mut place = self.place(start.at, start.level);
+            while reached.insert(place) {
+                place = self.held(layer, place);
             }
         }
-        (0..self.places()).filter(|&place| is_reached[place]).collect()
+        reached.into_iter().collect()
     }
 
     /// Checks that a day is not too large for slices of at most `step_s` seconds.
@@ -193,11 +190,9 @@ impl TimeExpandedDay {
         let (layers, _) = layers(scenario, &[], None);
         let slices = Slices::of(scenario, step_s);
         let size = scenario.vertiports.len();
-        let levels = usize::from(levels);
-        let flights = slices.len() * pairs(&Legs::of(scenario), &layers, size) * levels;
-        // With an outage, aircraft are full after their first flight.
-        let of_layer = |layer: &Layer| if layer.has_outages { 1 } else { levels };
-        let places = layers.iter().map(of_layer).sum::<usize>() * size * slices.day_s() as usize;
+        let flights = slices.len() * pairs(&Legs::of(scenario), &layers, (size, levels));
+        let levels = layers.iter().map(|layer| layer.most_levels(levels)).sum::<usize>();
+        let places = levels * size * slices.day_s() as usize;
         if flights <= MOST_FLIGHTS && places <= MOST_PLACES {
             return Ok(());
         }
@@ -242,7 +237,9 @@ impl TimeExpandedDay {
                     let is_open =
                         |to: &VertiportIx| !closed.is_closed_throughout(from, *to, first, last);
                     for level in (0..).take(self.levels.into()) {
-                        for to in open.iter().filter(is_open) {
+                        let place = self.place(from.at(), level);
+                        let is_reached = self.reached[layer].binary_search(&place).is_ok();
+                        for to in open.iter().filter(|to| is_reached && is_open(to)) {
                             let cell = first_cell + from.at() * size + to.at();
                             let hop = Hop { layer, pair: (from, to), level };
                             self.add_flight((scenario, legs), (slice, cell), hop, levels);
@@ -452,11 +449,21 @@ fn delay_s(scenario: &Scenario, from: VertiportIx, time_s: u32) -> u32 {
 }
 
 /// Number of flights that may begin in each slice.
-fn pairs(legs: &Legs, layers: &[Layer], size: usize) -> usize {
-    let within_range = |layer: &Layer| -> usize {
-        VertiportIx::all(size).map(|from| legs.within_range(layer.kind, from).iter().count()).sum()
+fn pairs(legs: &Legs, layers: &[Layer], (size, levels): (usize, u16)) -> usize {
+    let within_range = |layer: &Layer, from| legs.within_range(layer.kind, from).iter().count();
+    let of_layer = |layer: &Layer| -> usize {
+        let pairs = VertiportIx::all(size).map(|from| within_range(layer, from)).sum::<usize>();
+        pairs * layer.most_levels(levels)
     };
-    layers.iter().map(within_range).sum()
+    layers.iter().map(of_layer).sum()
+}
+
+impl Layer {
+    /// About the number of levels that its aircraft may have at a vertiport.
+    fn most_levels(&self, levels: u16) -> usize {
+        // With an outage they are full, but for few vertiports at the start of the day.
+        if self.has_outages { 1 } else { levels.into() }
+    }
 }
 
 /// The fixed cost of the fleet, the stands and the chargers. It is rounded down for each, but to no
