@@ -35,7 +35,7 @@ use vertifleet_core::{Scenario, Stop, Time, VertiportIx};
 
 use crate::Error;
 use descent::Found;
-use ladder::{Path, Relaxed, search};
+use ladder::{PathLevels, Relaxed, search};
 use market::Market;
 use prices::Prices;
 use slices::Slices;
@@ -100,17 +100,18 @@ pub fn upper_bound_of_rest(
     ready: &[Time],
     step: Step,
 ) -> Result<Option<Bound>, Error> {
-    let bound = search(Relaxed::known(scenario, ready), step, Path::Each, &Unless { stopped })?;
+    let bound =
+        search(Relaxed::known(scenario, ready), step, PathLevels::All, &Unless { stopped })?;
     Ok(bound.filter(|_| !stopped.is_requested()))
 }
 
-/// The best bound with the shortest step and the most levels of charge for which the day is not too
-/// large, or until `watch` stops the search; `None` if that is before the first bound, or the day is
+/// The best bound on a path to the shortest step for which the day is not too large, with as many
+/// levels of charge as each cut takes, or until `watch` stops the search; `None` if that is before the first bound, or the day is
 /// too large for every step.
 pub(crate) fn finest_bound(scenario: &Scenario, watch: &dyn Watch) -> Option<Bound> {
     let fits = |step: &Step| TimeExpandedDay::fits(scenario, step.seconds(), 1).is_ok();
     let step = STEPS.into_iter().rev().find(fits)?;
-    search(Relaxed::known(scenario, &[]), step, Path::Most, watch).ok().flatten()
+    search(Relaxed::known(scenario, &[]), step, PathLevels::Highest, watch).ok().flatten()
 }
 
 /// Ignores all progress, and only passes a request to stop on.

@@ -235,8 +235,8 @@ impl Outlook {
 /// vertiports times aircraft types times hours left. A bound then takes at most half a second;
 /// larger days have none.
 const STEPS: [(usize, u32); 2] = [(1_000, 15), (4_000, 60)];
-/// Levels of charge of the bound on days that charge as needed: the fewest, for the same reason.
-const FEWEST_LEVELS: u16 = 4;
+/// The most levels of charge of the bound on days that charge as needed, for the same reason.
+const MOST_LEVELS: u16 = 4;
 
 /// Upper bound on the profit of the whole day from now on.
 fn upper_bound_usd(live: &mut LiveDay) -> Result<Option<f64>, Error> {
@@ -249,7 +249,7 @@ fn upper_bound_usd(live: &mut LiveDay) -> Result<Option<f64>, Error> {
     };
     let Some(RemainingDay { day, ready }) = live.remaining_day()? else { return Ok(Some(so_far)) };
     let internal = |error: vertifleet_optimize::Error| Error::Internal { cause: error.to_string() };
-    let step = Step::from_minutes(minutes).and_then(|step| step.with_levels(FEWEST_LEVELS));
+    let step = Step::from_minutes(minutes).and_then(|step| step.with_levels(MOST_LEVELS));
     let step = step.map_err(internal)?;
     let bound = upper_bound_of_rest(&Stop::default(), &day, &ready, step).map_err(internal)?;
     Ok(bound.map(|bound| so_far + bound.upper_bound_usd()))

@@ -276,9 +276,9 @@ impl LayerPass<'_> {
     }
 
     /// Does the same as [`work_out_piece`](Self::work_out_piece) where aircraft may wait freely and
-    /// owe nothing. Every worth less what has been paid then only falls with time. So the first
-    /// entry of a choice is its highest and the last one of `best` the lowest, and a choice whose
-    /// first entry is no higher than that is left out.
+    /// there is no penalty. The worth less the price of the stand since the day began then never
+    /// rises with time. So the first entry of a choice is its highest, and the last one of `best`
+    /// the lowest; a choice whose first entry is no higher than that is left out.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "the vectors' width is chosen outside")]
     fn work_out_falling_piece(

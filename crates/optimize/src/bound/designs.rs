@@ -12,11 +12,11 @@ use vertifleet_core::{
     Aircraft, AircraftIx, Day, Fares, Matrix, Outage, Scenario, Stop, TypeIx, VertiportIx,
 };
 
-use super::Bound;
 use super::certificate::Certificate;
 use super::money;
 use super::prices::Prices;
 use super::time_expanded_day::TimeExpandedDay;
+use super::{Bound, Step};
 use crate::Error;
 
 /// What a day can earn at most before fixed costs, with any number of aircraft of each type,
@@ -90,7 +90,10 @@ impl Bound {
     /// If `scenario` is not the day of the bound.
     pub fn of_designs(&self, scenario: &Scenario, may_fail: bool) -> Result<DesignBound, Error> {
         let probe = one_of_each_type(scenario, may_fail);
-        let day = TimeExpandedDay::of(&probe, &[], self.step_s(), self.levels)?;
+        // With every type, fewer levels may fit than on the day. Any number proves a bound.
+        let levels = Step { levels: self.levels, ..self.step }.all_levels(&probe);
+        let levels = *levels.last().expect("there is one");
+        let day = TimeExpandedDay::of(&probe, &[], self.step_s(), levels)?;
         let size = day.size();
         assert_eq!(self.prices.stand.len(), day.slices.len() * size, "the prices are of this day");
         let flight = self.market.prices_with_more_flights(&day.market, &self.prices.flight);

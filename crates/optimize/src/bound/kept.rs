@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use siphasher::sip128::{Hasher128, SipHasher24};
-use vertifleet_core::{Scenario, Stop, create_folder, read_at_most, write_atomically};
+use vertifleet_core::{Charging, Scenario, Stop, create_folder, read_at_most, write_atomically};
 
 use super::certificate::Certificate;
 use super::descent::Found;
@@ -21,7 +21,7 @@ use super::{Bound, Step, upper_bound_unless};
 use crate::Error;
 
 /// To be raised whenever the search would find other prices.
-const VERSION: u64 = 3;
+const VERSION: u64 = 4;
 /// No file that this program wrote is longer.
 const LONGEST: u64 = 256 << 20;
 
@@ -75,7 +75,10 @@ fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Result<Option<Bound
     if kept.levels.is_some_and(|levels| levels != 1 && !LEVELS.contains(&levels)) {
         return Ok(None);
     }
-    let day = TimeExpandedDay::of(scenario, &[], step.seconds(), kept.levels.unwrap_or(1))?;
+    let levels = kept.levels.unwrap_or(1);
+    let Ok(day) = TimeExpandedDay::of(scenario, &[], step.seconds(), levels) else {
+        return Ok(None);
+    };
     let prices = Prices::checked(&day, kept.stand, kept.flight, kept.charging);
     let Some(prices) = prices else { return Ok(None) };
     let proven = Certificate::new(&day).evaluate(&day, &prices, stopped);
@@ -90,11 +93,8 @@ fn path(scenario: &Scenario, step: Step, folder: &Path) -> PathBuf {
     let mut hasher = SipHasher24::new();
     hasher.write_u64(VERSION);
     hasher.write_u32(step.seconds());
-    // Days that charge to full keep the names that they had before there were levels.
-    if let [.., most] = step.all_levels(scenario)
-        && *most > 1
-    {
-        hasher.write_u16(*most);
+    if scenario.operations.charging == Charging::AsNeeded {
+        hasher.write_u16(step.levels);
     }
     hasher.write(scenario.to_json().as_bytes());
     let mut name = String::from("bound-");

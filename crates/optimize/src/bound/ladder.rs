@@ -3,9 +3,10 @@
 //!
 //! The path to the requested slices passes through all coarser ones (`CUTS`) and does the same work
 //! in each for every request. The result is the best bound that was proven on the path, so a
-//! shorter step never gives a looser bound. On days that charge as needed, each cut comes once for
-//! each number of levels of charge, from the fewest on. The prices in some number of levels never
-//! depend on those in more, so more levels never give a looser bound either. On each rung, prices are first searched for on a clock that ticks once a minute, where a step
+//! shorter step never gives a looser bound. On days that charge as needed, a cut comes once for each
+//! number of levels of charge that is worth its time there, from the fewest on. The prices in some
+//! number of levels never depend on those in more, so more levels never give a looser bound either.
+//! A path with only the most levels is faster, and promises neither. On each rung, prices are first searched for on a clock that ticks once a minute, where a step
 //! takes a fraction of the time and proves nothing, and then to the second, where every step proves
 //! a bound.
 
@@ -74,13 +75,13 @@ pub(super) const CUTS: [Cut; 5] = [
 const FIRST_WITH_LEVELS: (u32, u32) = (300, 20);
 const LATER_WITH_LEVELS: (u32, u32) = (150, 40);
 
-/// The levels of charge with which a path passes through the slices.
+/// The numbers of levels of charge with which a path passes through each cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Path {
-    /// Each number of levels, so that the bounds of several paths can be compared.
-    Each,
-    /// Only the most levels, which is faster.
-    Most,
+pub(super) enum PathLevels {
+    /// All, so that neither more levels nor shorter slices ever give a looser bound.
+    All,
+    /// Only the highest, which is faster.
+    Highest,
 }
 
 /// A search with slices of one length and one number of levels of charge.
@@ -135,11 +136,11 @@ pub(crate) trait Watch: Sync {
 pub(super) fn search(
     relaxed: Relaxed<'_>,
     step: Step,
-    path: Path,
+    levels: PathLevels,
     watch: &dyn Watch,
 ) -> Result<Option<Bound>, Error> {
     TimeExpandedDay::fits(relaxed.scenario, step.seconds(), 1)?;
-    let rungs = rungs(relaxed.scenario, step, path);
+    let rungs = rungs(relaxed.scenario, step, levels);
     let in_all = rungs.iter().map(|rung| rung.work(relaxed.scenario)).sum();
     let mut search = Search { relaxed, watch, best: None, done: 0.0, in_all };
     // The prices that were found last, by number of levels.
@@ -163,13 +164,21 @@ pub(super) fn search(
 }
 
 /// The rungs of a path to slices of `step`.
-fn rungs(scenario: &Scenario, step: Step, path: Path) -> Vec<Rung> {
-    let mut rungs = Vec::new();
+fn rungs(scenario: &Scenario, step: Step, of_path: PathLevels) -> Vec<Rung> {
+    let mut rungs: Vec<Rung> = Vec::new();
     let mut steps = FIRST_WITH_LEVELS;
     for cut in CUTS.iter().filter(|cut| step.minutes <= cut.step.minutes) {
         let most = cut.most_levels.min(step.levels);
         let all = Step { levels: most, ..cut.step }.all_levels(scenario);
-        let levels = if path == Path::Most { &all[all.len() - 1..] } else { all };
+        let levels = match of_path {
+            PathLevels::All => all,
+            PathLevels::Highest => &all[all.len() - 1..],
+        };
+        let before = rungs.last().map_or(1, |rung| rung.levels);
+        if of_path == PathLevels::Highest && levels[0] < before {
+            // The day is too large for as many levels in finer slices.
+            break;
+        }
         for &levels in levels {
             let mut rung = cut.with_one_level();
             if levels > 1 {

@@ -61,6 +61,13 @@ impl Penalty {
         self.slots_s.get(slot).map_or(usize::MAX, |&past_s| past_s as usize)
     }
 
+    /// Payments of nothing on a day of some types and vertiports that is one slot.
+    #[cfg(test)]
+    pub(super) fn of_nothing(kinds: Vec<TypeIx>, vertiports: usize, day_s: u32) -> Self {
+        let micro_usd = vec![0; kinds.len() * vertiports * day_s as usize];
+        Self { kinds, vertiports, slots_s: vec![0, day_s], micro_usd }
+    }
+
     fn day_s(&self) -> usize {
         *self.slots_s.last().expect("a day has a slot") as usize
     }

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use proptest::prelude::{ProptestConfig, any, prop_assert, proptest};
+use proptest::prelude::{ProptestConfig, any, prop_assert, prop_assert_eq, proptest};
 use vertifleet_core::{AircraftIx, DaySeed, Network, Scenario, Stop, TakeoffDelays, Time};
 use vertifleet_policy::{BidPricePolicy, Greedy, Policy, Random, draw, play};
 use vertifleet_sim::{Simulation, Trace};
@@ -218,6 +218,39 @@ proptest! {
             let rows = trace.rows.iter().filter(|row| row.to != row.from);
             let profit: i128 = rows.map(|row| i128::from(money::down(row.profit_usd()))).sum();
             prop_assert!(profit <= bound, "{profit} is earned, the bound is {bound}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    // Without a penalty, passes leave out choices that cannot be the best. A penalty of nothing
+    // changes no worth, but makes them compare all.
+    #[test]
+    fn choices_that_are_left_out_change_no_worth(
+        number in any::<u32>(), minutes in 1_u32..60, levels in 1_u16..9, mix in any::<u64>()
+    ) {
+        let day = any_energy_day(number.into(), Size { vertiports: 5, fleet: 6, hours: 6 });
+        let fast = TimeExpandedDay::of(&day, &[], 60 * minutes, levels).expect("a small day");
+        let kinds = fast.layers.iter().map(|layer| layer.kind).collect();
+        let day_s = fast.slices.day_s();
+        let mut slow = fast.clone();
+        slow.penalty = Some(Penalty::of_nothing(kinds, fast.size(), day_s));
+        let prices = any_prices(&fast, mix);
+        let [one, other] = [&fast, &slow].map(|day| {
+            let mut certificate = Certificate::new(day);
+            let proven = certificate.evaluate(day, &prices, &Stop::default());
+            (proven.expect("it is not stopped"), certificate)
+        });
+        prop_assert_eq!(one.0, other.0);
+        for layer in 0..fast.layers.len() {
+            for &place in fast.reached(layer) {
+                for second in 0..day_s as usize {
+                    let worth = one.1.worth_less_paid(&fast, layer, place, second);
+                    prop_assert_eq!(worth, other.1.worth_less_paid(&slow, layer, place, second));
+                }
+            }
         }
     }
 }

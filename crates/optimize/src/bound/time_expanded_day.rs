@@ -190,9 +190,9 @@ impl TimeExpandedDay {
         let (layers, _) = layers(scenario, &[], None);
         let slices = Slices::of(scenario, step_s);
         let size = scenario.vertiports.len();
-        let flights = slices.len() * pairs(&Legs::of(scenario), &layers, (size, levels));
-        let levels = layers.iter().map(|layer| layer.most_levels(levels)).sum::<usize>();
-        let places = levels * size * slices.day_s() as usize;
+        let levels = usize::from(levels);
+        let flights = slices.len() * pairs(&Legs::of(scenario), &layers, size) * levels;
+        let places = layers.len() * size * levels * slices.day_s() as usize;
         if flights <= MOST_FLIGHTS && places <= MOST_PLACES {
             return Ok(());
         }
@@ -449,21 +449,11 @@ fn delay_s(scenario: &Scenario, from: VertiportIx, time_s: u32) -> u32 {
 }
 
 /// Number of flights that may begin in each slice.
-fn pairs(legs: &Legs, layers: &[Layer], (size, levels): (usize, u16)) -> usize {
-    let within_range = |layer: &Layer, from| legs.within_range(layer.kind, from).iter().count();
-    let of_layer = |layer: &Layer| -> usize {
-        let pairs = VertiportIx::all(size).map(|from| within_range(layer, from)).sum::<usize>();
-        pairs * layer.most_levels(levels)
+fn pairs(legs: &Legs, layers: &[Layer], size: usize) -> usize {
+    let within_range = |layer: &Layer| -> usize {
+        VertiportIx::all(size).map(|from| legs.within_range(layer.kind, from).iter().count()).sum()
     };
-    layers.iter().map(of_layer).sum()
-}
-
-impl Layer {
-    /// About the number of levels that its aircraft may have at a vertiport.
-    fn most_levels(&self, levels: u16) -> usize {
-        // With an outage they are full, but for few vertiports at the start of the day.
-        if self.has_outages { 1 } else { levels.into() }
-    }
+    layers.iter().map(within_range).sum()
 }
 
 /// The fixed cost of the fleet, the stands and the chargers. It is rounded down for each, but to no

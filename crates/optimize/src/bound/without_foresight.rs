@@ -7,7 +7,7 @@
 use vertifleet_core::{Network, Scenario, Stop, TakeoffDelays};
 
 use super::certificate::Certificate;
-use super::ladder::{Path, Relaxed, search};
+use super::ladder::{PathLevels, Relaxed, search};
 use super::penalty::Penalty;
 use super::penalty::worths::Expected;
 use super::prices::whole;
@@ -62,7 +62,7 @@ pub(super) fn bound_with_penalty(
     let expected = Expected { scenario: &expected, day: &day, certificate: &certificate };
     let penalty = Penalty::of(delays, probabilities, &expected);
     let relaxed = Relaxed { penalty: Some(&penalty), ..Relaxed::known(scenario, &[]) };
-    let bound = search(relaxed, step, Path::Each, &Unless { stopped })?;
+    let bound = search(relaxed, step, PathLevels::All, &Unless { stopped })?;
     Ok(bound.filter(|_| !stopped.is_requested()))
 }
 
