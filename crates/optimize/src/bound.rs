@@ -106,8 +106,8 @@ pub fn upper_bound_of_rest(
 }
 
 /// The best bound on a path to the shortest step for which the day is not too large, with as many
-/// levels of charge as each cut takes, or until `watch` stops the search; `None` if that is before the first bound, or the day is
-/// too large for every step.
+/// levels of charge as each cut takes, or until `watch` stops the search. `None` if that is before
+/// the first bound, or the day is too large for every step.
 pub(crate) fn finest_bound(scenario: &Scenario, watch: &dyn Watch) -> Option<Bound> {
     let fits = |step: &Step| TimeExpandedDay::fits(scenario, step.seconds(), 1).is_ok();
     let step = STEPS.into_iter().rev().find(fits)?;

@@ -3,10 +3,12 @@
 //!
 //! The path to the requested slices passes through all coarser ones (`CUTS`) and does the same work
 //! in each for every request. The result is the best bound that was proven on the path, so a
-//! shorter step never gives a looser bound. On days that charge as needed, a cut comes once for each
-//! number of levels of charge that is worth its time there, from the fewest on. The prices in some
-//! number of levels never depend on those in more, so more levels never give a looser bound either.
-//! A path with only the most levels is faster, and promises neither. On each rung, prices are first searched for on a clock that ticks once a minute, where a step
+//! shorter step never gives a looser bound. On days that charge as needed, a cut comes once for
+//! each number of levels of charge that is worth its time there, from the fewest on. The prices in
+//! some number of levels never depend on those in more, so more levels never give a looser bound
+//! either. A path with only the most levels is faster, and promises neither.
+//!
+//! On each rung, prices are first searched for on a clock that ticks once a minute, where a step
 //! takes a fraction of the time and proves nothing, and then to the second, where every step proves
 //! a bound.
 

@@ -19,9 +19,9 @@ pub struct Step {
 
 /// All numbers of levels of charge above 1, from the fewest.
 pub(super) const LEVELS: [u16; 3] = [4, 16, MOST_LEVELS];
-/// The default. With 64 levels the bound of `new-york-quick` is 0.5 % lower than with 4, that of
-/// `paper-quick` 3.5 %. Twice as many would lower the former by another 0.2 %, in twice the time and
-/// memory.
+/// The default. With 64 levels the bound of `new-york-quick` is 0.5 % lower than with 4, and that
+/// of `paper-quick` 3.5 %. Twice as many would lower the former by another 0.2 %, in twice the time
+/// and memory.
 const MOST_LEVELS: u16 = 64;
 
 /// All steps, from the longest to the shortest.
@@ -43,10 +43,10 @@ impl Step {
         step.filter(|_| minutes <= 60).ok_or(Error::Step { found: minutes })
     }
 
-    /// The same step with no more than some levels of charge on days that charge as needed: 4, 16 or
-    /// 64, the most of these that are no more than `levels` and for which the day is not too large.
-    /// Slices of 60 minutes always have one level, those of 15 minutes at most 16. More levels never
-    /// give a looser bound, and take longer.
+    /// The same step with no more than some levels of charge on days that charge as needed: 4, 16
+    /// or 64, the most of these that are no more than `levels` and for which the day is not too
+    /// large. Slices of 60 minutes always have one level, those of 15 minutes at most 16. More
+    /// levels never give a looser bound, and take longer.
     ///
     /// # Errors
     /// [`Error::Levels`] unless `levels` is from 4 to 64.

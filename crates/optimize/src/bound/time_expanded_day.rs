@@ -23,8 +23,8 @@ use crate::Error;
 
 /// The most flights of a day in all slices. More would take too much memory and time.
 const MOST_FLIGHTS: usize = 20_000_000;
-/// The most layers x vertiports x seconds of a day, for the same reason.
-const MOST_PLACES: usize = 100_000_000;
+/// The most layers x vertiports x levels x seconds of a day, for the same reason.
+const MOST_PLACES: usize = 200_000_000;
 
 /// A flight that an aircraft of some type may begin in some slice at some vertiport.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
