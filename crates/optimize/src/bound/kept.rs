@@ -53,7 +53,7 @@ pub fn kept_upper_bound(
     folder: &Path,
 ) -> Result<Option<Bound>, Error> {
     let path = path(scenario, step, folder);
-    if let Some(bound) = kept(scenario, stopped, &path)? {
+    if let Some(bound) = kept(scenario, stopped, &path) {
         return Ok(Some(bound));
     }
     let Some(bound) = upper_bound_unless(stopped, scenario, step)? else { return Ok(None) };
@@ -68,25 +68,20 @@ pub fn kept_upper_bound(
 
 /// The bound of the prices in a file. Returns `None` if there is no such file, if it has no prices
 /// for this day, or if `stopped` is requested meanwhile.
-fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Result<Option<Bound>, Error> {
-    let Ok(text) = read_at_most(path, LONGEST) else { return Ok(None) };
-    let Ok(kept) = serde_json::from_slice::<Kept>(&text) else { return Ok(None) };
-    let Ok(step) = Step::from_minutes(kept.minutes) else { return Ok(None) };
+fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Option<Bound> {
+    let text = read_at_most(path, LONGEST).ok()?;
+    let kept: Kept = serde_json::from_slice(&text).ok()?;
+    let step = Step::from_minutes(kept.minutes).ok()?;
     if kept.levels.is_some_and(|levels| levels != 1 && !LEVELS.contains(&levels)) {
-        return Ok(None);
+        return None;
     }
     let levels = kept.levels.unwrap_or(1);
-    let Ok(day) = TimeExpandedDay::of(scenario, &[], step.seconds(), levels) else {
-        return Ok(None);
-    };
-    let prices = Prices::checked(&day, kept.stand, kept.flight, kept.charging);
-    let Some(prices) = prices else { return Ok(None) };
-    let proven = Certificate::new(&day).evaluate(&day, &prices, stopped);
-    Ok(proven.map(|micro_usd| {
-        let bound = Bound::of(step, &day, &Found { prices, micro_usd });
-        // Only prices of a search that came to its end are kept.
-        Bound { is_final: true, ..bound }
-    }))
+    let day = TimeExpandedDay::of(scenario, &[], step.seconds(), levels).ok()?;
+    let prices = Prices::checked(&day, kept.stand, kept.flight, kept.charging)?;
+    let micro_usd = Certificate::new(&day).evaluate(&day, &prices, stopped)?;
+    let bound = Bound::of(step, &day, &Found { prices, micro_usd });
+    // Only prices of a search that came to its end are kept.
+    Some(Bound { is_final: true, ..bound })
 }
 
 fn path(scenario: &Scenario, step: Step, folder: &Path) -> PathBuf {
