@@ -82,3 +82,28 @@ impl Default for Step {
         Self { minutes: 5, levels: MOST_LEVELS }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use vertifleet_core::{DaySeed, Network};
+
+    use super::*;
+
+    #[test]
+    fn a_large_day_has_fewer_levels_the_finer_its_slices() {
+        let network = Network::shipped("large").expect("a shipped network");
+        let mut day = network.draw(DaySeed::comparison(1).expect("a seed")).into_day();
+        let levels = |minutes: u32, day: &Scenario| {
+            Step::from_minutes(minutes).expect("a step").all_levels(day)
+        };
+        let to_full = day.clone().check("large").expect("a day");
+        day.operations.charging = Charging::AsNeeded;
+        let as_needed = day.check("large").expect("a day");
+        assert_eq!(levels(15, &to_full), [1]);
+        // 64 levels would take more than 200 million places. In slices of 3 minutes 16 levels, and
+        // in those of a minute 4, would take more than 20 million flights.
+        assert_eq!(levels(15, &as_needed), [4, 16]);
+        assert_eq!(levels(3, &as_needed), [4]);
+        assert_eq!(levels(1, &as_needed), [1]);
+    }
+}
