@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use utoipa::openapi::schema::{ObjectBuilder, Type};
 use utoipa::openapi::{RefOr, Schema};
 use utoipa::{PartialSchema, ToSchema};
-use vertifleet_core::{Aircraft, Scenario, Stop, TypeIx, VertiportIx};
+use vertifleet_core::{Aircraft, Charging, Scenario, Stop, TypeIx, VertiportIx};
 use vertifleet_optimize::{Step, upper_bound_of_rest};
 use vertifleet_sim::live::{LiveDay, RemainingDay};
 use vertifleet_sim::{DayNumber, DayTotals, TraceRow};
@@ -85,6 +85,10 @@ pub(crate) struct Leg {
     pub(crate) to: String,
     /// When the decision was taken, or is expected.
     pub(crate) time: Moment,
+    /// When the battery suffices, so that it takes off unless it is delayed; only of flights on
+    /// days that charge as needed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) takeoff: Option<Moment>,
     /// When it lands.
     pub(crate) arrival: Moment,
     /// When the aircraft is ready again.
@@ -258,11 +262,13 @@ fn upper_bound_usd(live: &mut LiveDay) -> Result<Option<f64>, Error> {
 impl Leg {
     fn of(row: &TraceRow, scenario: &Scenario, is_taken: bool) -> Self {
         let id = |vertiport: VertiportIx| scenario.vertiports[vertiport.at()].id.clone();
+        let waits = scenario.operations.charging == Charging::AsNeeded && row.from != row.to;
         Self {
             aircraft: scenario.aircraft[row.aircraft.at()].id.clone(),
             from: id(row.from),
             to: id(row.to),
             time: row.time.into(),
+            takeoff: waits.then(|| row.takeoff.into()),
             arrival: row.arrival.into(),
             ready: row.ready.into(),
             passengers: row.passengers,

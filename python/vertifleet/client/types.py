@@ -669,6 +669,9 @@ Leg = TypedDict(
         "profit_usd": float,
         # Whether the decision has been taken.
         "is_taken": bool,
+        # When the battery suffices, so that it takes off unless it is delayed; only of flights on
+        # days that charge as needed.
+        "takeoff": NotRequired[Moment | None],
     },
 )
 """A flight or a hold."""

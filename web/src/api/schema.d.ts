@@ -1054,6 +1054,7 @@ export interface components {
             profit_usd: number;
             /** @description When the aircraft is ready again. */
             ready: components["schemas"]["Moment"];
+            takeoff?: components["schemas"]["Moment"] | null;
             /** @description When the decision was taken, or is expected. */
             time: components["schemas"]["Moment"];
             /** @description The destination; that of a hold is the same vertiport. */

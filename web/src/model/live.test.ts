@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest'
 import type { AircraftState, DayState, Leg, Outlook, TakenEvent } from '../api/types'
 import { fleetRows } from './bars'
 import { east, events, north, outlook, recordAfter, scenario, south, state } from './fixtures/liveDay'
-import { lacksTakeoffs, liveRecord } from './live'
+import { liveRecord } from './live'
 import { isHold } from './record'
 import { Reports } from './reports'
 import { clock, timeOf } from './time'
@@ -66,9 +66,10 @@ describe('a live day that charges as needed', () => {
     function barsOfA03(now: DayState): string[] {
       const reports = new Reports(asNeeded)
       for (const event of [...decided, departed as unknown as TakenEvent]) reports.take(event)
-      reports.keepTakeoffsOfState(flying)
       const isFlight = (leg: Leg) => leg.aircraft === 'A03' && leg.time === '06:47:00'
-      const legs = outlook.legs.map((leg) => (isFlight(leg) ? { ...leg, ...times } : leg))
+      const legs = outlook.legs.map((leg) =>
+        isFlight(leg) ? { ...leg, ...times, takeoff: '06:59:00' } : leg,
+      )
       const sources = { scenario: asNeeded, reports, outlook: { ...outlook, legs }, flown: [] }
       const record = liveRecord({ ...sources, state: now })
       const bars = fleetRows(record)[a03]?.bars.filter(({ begins }) => begins >= timeOf('06:47:00')) ?? []
@@ -85,23 +86,18 @@ describe('a live day that charges as needed', () => {
     })
   })
 
-  it('has flights in the outlook whose take-offs are unknown until the trace is read', () => {
-    const [asNeededOutlook, reports] = [{ ...outlook }, new Reports(asNeeded)]
-    expect(lacksTakeoffs(asNeededOutlook, asNeeded, reports)).toBe(true)
-    reports.keepTakeoffsOfTrace(record.legs.map((leg) => ({ ...leg, charged: leg.decided })))
-    expect(lacksTakeoffs(asNeededOutlook, asNeeded, reports)).toBe(false)
-    expect(lacksTakeoffs({ ...outlook }, scenario, new Reports(scenario))).toBe(false)
-  })
-
-  it('takes off in the outlook as long before the landing as the flight takes', () => {
+  it('has the take-offs of the outlook', () => {
     const reports = new Reports(asNeeded)
     const legs = outlook.legs.filter((leg) => leg.aircraft === 'A03' && leg.from !== leg.to)
-    const later = legs.map((leg) => ({ ...leg, arrival: clock(timeOf(leg.arrival) + 600) }))
+    const later = (time: Leg['time']) => clock(timeOf(time) + 600)
+    const waiting = legs.map((leg) => ({ ...leg, takeoff: later(leg.time), arrival: later(leg.arrival) }))
     const given = { scenario: asNeeded, reports, state: { ...state, aircraft: [] }, flown: [] }
-    const record = liveRecord({ ...given, outlook: { ...outlook, legs: later } })
+    const record = liveRecord({ ...given, outlook: { ...outlook, legs: waiting } })
     expect(record.legs.length).toBeGreaterThan(1)
-    for (const leg of record.legs) expect(leg.departs).toBe(leg.charged)
-    expect(record.legs.some((leg) => leg.departs >= leg.decided + 600)).toBe(true)
+    for (const leg of record.legs) {
+      expect([leg.charged, leg.departs]).toEqual([leg.decided + 600, leg.decided + 600])
+      expect(leg.energy_kwh).toBeGreaterThan(0)
+    }
   })
 })
 

@@ -97,20 +97,9 @@ export function legsOf(outlook: Outlook, scenario: Scenario): LegRecord[] {
   const former = readLegs.get(outlook)
   if (former !== undefined) return former
   const [aircraft, vertiports] = [indexed(scenario.aircraft), indexed(scenario.vertiports)]
-  const legs = outlook.legs.map((leg) => withTakeoff(scenario, legOf(leg, aircraft, vertiports)))
+  const legs = outlook.legs.map((leg) => withTakeoff(scenario, legOf(leg, aircraft, vertiports), leg.takeoff))
   readLegs.set(outlook, legs)
   return legs
-}
-
-/**
- * Whether an outlook has flights whose take-offs are unknown. It contains only landings, and a
- * flight may land late because it departed late or because it waited for its charge.
- */
-export function lacksTakeoffs(outlook: Outlook, scenario: Scenario, reports: Reports): boolean {
-  return legsOf(outlook, scenario).some(
-    ({ aircraft, decided, charged, is_expected }) =>
-      !is_expected && charged !== undefined && reports.takeoff(aircraft, decided) === undefined,
-  )
 }
 
 function legOf(leg: Leg, aircraft: Map<string, number>, vertiports: Map<string, number>): LegRecord {
@@ -156,8 +145,8 @@ class Legs {
         this.#stands(one, latest, times)
         continue
       }
-      const { passengers } = one.flight
-      const charge = chargeOfFlight(one)
+      const { passengers, takeoff } = one.flight
+      const charge = one.lands_with_kwh == null ? {} : { lands_with_kwh: one.lands_with_kwh }
       const decided = timeOf(one.flight.decided)
       if (latest?.decided === decided)
         Object.assign(
@@ -167,9 +156,9 @@ class Legs {
       else {
         const [from, to] = [known(places, one.flight.from), known(places, one.flight.to)]
         const flight = { aircraft, from, to, decided, departs: decided, ...times, passengers }
-        const whole = withTakeoff(this.scenario, { ...flight, profit_usd: 0, is_expected: false })
-        const leg = this.#reported({ ...whole, ...charge })
-        more.push(this.#awaiting(one, leg))
+        const leg = { ...flight, ...charge, profit_usd: 0, is_expected: false }
+        const whole = this.#reported(withTakeoff(this.scenario, leg, takeoff))
+        more.push(this.#awaiting(one, whole))
       }
     }
     return more.length === 0 ? this.#legs : this.#with(more)
@@ -224,26 +213,14 @@ class Legs {
     const report = this.reports.decision(leg.aircraft, leg.decided)
     const policy = report?.policy === undefined ? {} : { policy: report.policy }
     if (leg.from === leg.to) return { ...leg, ...policy }
-    const takeoff = this.reports.takeoff(leg.aircraft, leg.decided) ?? leg.charged
-    const charged = takeoff ?? leg.decided
+    const charged = leg.charged ?? leg.decided
     const departs = report?.departs ?? charged
     const arrives = charged + nominal(this.scenario, leg).flight_s
-    const charge = {
-      ...(takeoff === undefined ? {} : { charged: takeoff }),
-      ...(report?.lands_with_kwh === undefined ? {} : { lands_with_kwh: report.lands_with_kwh }),
-    }
+    const charge = report?.lands_with_kwh === undefined ? {} : { lands_with_kwh: report.lands_with_kwh }
     const known = { ...leg, ...policy, ...charge, departs }
     if (departs === charged && leg.arrives === arrives) return known
     const planned = { departs: charged, arrives, ready: arrives + leg.ready - leg.arrives }
     return { ...known, planned }
-  }
-}
-
-/** What the state of an aircraft under way adds to its leg on a day that charges as needed. */
-function chargeOfFlight({ flight, lands_with_kwh }: AircraftState): Partial<LegRecord> {
-  return {
-    ...(flight?.takeoff == null ? {} : { charged: timeOf(flight.takeoff) }),
-    ...(lands_with_kwh == null ? {} : { lands_with_kwh }),
   }
 }
 

@@ -2,9 +2,11 @@
 // (docs/src/concepts/model.md). Traces and the service's legs contain only the outcome of a flight,
 // so the plan for comparison is computed here.
 
+import type { Leg } from '../api/types'
 import { ChargeRate } from './rate'
 import type { LegRecord, Seconds } from './record'
 import type { Scenario } from './scenario'
+import { timeOf } from './time'
 
 export interface Nominal {
   flight_s: Seconds
@@ -35,14 +37,9 @@ export function nominal(
   return { flight_s, ground_s, energy_kwh }
 }
 
-/**
- * A flight with its take-off on a day that charges as needed; on other days it takes off at the
- * decision. The service's outlook has no take-offs, but each follows from the landing, unless the
- * flight was late.
- */
-export function withTakeoff(scenario: Scenario, leg: LegRecord): LegRecord {
-  if (scenario.operations.charging !== 'as_needed' || leg.from === leg.to) return leg
-  const { flight_s, energy_kwh } = nominal(scenario, leg)
-  const charged = Math.max(leg.decided, leg.arrives - flight_s)
-  return { ...leg, departs: charged, charged, energy_kwh }
+/** A leg with the take-off that the service has of flights on days that charge as needed. */
+export function withTakeoff(scenario: Scenario, leg: LegRecord, takeoff: Leg['takeoff']): LegRecord {
+  if (takeoff == null) return leg
+  const charged = timeOf(takeoff)
+  return { ...leg, departs: charged, charged, energy_kwh: nominal(scenario, leg).energy_kwh }
 }

@@ -1,9 +1,8 @@
 // The reports of a day so far, as pictures need them: departures, closures, outages and demand.
 // Each event is applied once and in order, so the cost is proportional to the number of events.
-// Take-offs are not reported; the service computes them, and they are kept here.
 
-import type { DayState, Event, RouteNames, TakenEvent } from '../api/types'
-import type { ClosureRecord, LegRecord, OutageRecord, RouteRecord, Seconds } from './record'
+import type { Event, RouteNames, TakenEvent } from '../api/types'
+import type { ClosureRecord, OutageRecord, RouteRecord, Seconds } from './record'
 import type { Scenario, ScenarioClosure } from './scenario'
 import { timeOf } from './time'
 
@@ -37,7 +36,6 @@ export class Reports {
   readonly #aircraft: Map<string, number>
   readonly #vertiports: Map<string, number>
   readonly #decisions = new Map<string, ReportedDecision>()
-  readonly #takeoffs = new Map<string, Seconds>()
   /** When the latest decision of each aircraft was taken. */
   readonly #latest = new Map<number, Seconds>()
 
@@ -51,28 +49,6 @@ export class Reports {
   /** The known facts about the decision of an aircraft at a time. */
   decision(aircraft: number, decided: Seconds): ReportedDecision | undefined {
     return this.#decisions.get(key(aircraft, decided))
-  }
-
-  /**
-   * When the charge suffices for a flight; undefined if that is unknown, or if the day charges to
-   * full.
-   */
-  takeoff(aircraft: number, decided: Seconds): Seconds | undefined {
-    return this.#takeoffs.get(key(aircraft, decided))
-  }
-
-  /** Keeps the take-offs of flights under way. After a landing, a state does not contain them. */
-  keepTakeoffsOfState({ aircraft }: DayState): void {
-    for (const { id, flight } of aircraft) {
-      if (flight?.takeoff != null)
-        this.#takeoffs.set(key(this.#aircraftAt(id), timeOf(flight.decided)), timeOf(flight.takeoff))
-    }
-  }
-
-  /** Keeps the take-offs of a trace. */
-  keepTakeoffsOfTrace(legs: readonly LegRecord[]): void {
-    for (const { aircraft, decided, charged } of legs)
-      if (charged !== undefined) this.#takeoffs.set(key(aircraft, decided), charged)
   }
 
   take({ seq, event }: TakenEvent): void {
@@ -96,7 +72,6 @@ export class Reports {
         break
       case 'undone':
         this.#decisions.delete(key(aircraft, decided))
-        this.#takeoffs.delete(key(aircraft, decided))
         break
       case 'departed': {
         const known = this.#decisions.get(key(aircraft, decided))

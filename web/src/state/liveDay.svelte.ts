@@ -8,7 +8,7 @@ import type { AircraftState, DayInfo, DayState, Outlook, TakenEvent } from '../a
 import { alertsOf, type Alert } from '../model/alerts'
 import { aircraftAt, endOfMinute, recordAt } from '../model/awaited'
 import { canBeTakenBack, decidedSince } from '../model/decisions'
-import { lacksTakeoffs, liveRecord } from '../model/live'
+import { liveRecord } from '../model/live'
 import { canBeDecidedAgain, isOver } from '../model/over'
 import { WINDOW_MS } from '../model/pace'
 import type { DayRecord, LegRecord, Seconds } from '../model/record'
@@ -253,7 +253,6 @@ export class LiveDay {
     if (this.#isClosed || this.#scenario === undefined) return
     this.#flown = recordOf(this.#scenario, trace).legs
     this.#reports = new Reports(this.#scenario)
-    this.#reports.keepTakeoffsOfTrace(this.#flown)
     this.whereabouts = new Whereabouts()
     this.events = []
     this.#take(events)
@@ -333,7 +332,6 @@ export class LiveDay {
   }
 
   #takeState(state: DayState): void {
-    this.#reports?.keepTakeoffsOfState(state)
     this.state = state
     const now = timeOf(state.now)
     this.clock.setAwaited(state.aircraft.some((one) => one.needs_decision))
@@ -343,21 +341,12 @@ export class LiveDay {
 
   async #readOutlook(): Promise<void> {
     try {
-      const outlook = await this.#service.outlook(this.id)
-      await this.#readTakeoffs(outlook)
-      this.outlook = outlook
+      this.outlook = await this.#service.outlook(this.id)
       this.outlookProblem = undefined
     } catch (problem) {
       if (problem instanceof ProblemError) this.outlookProblem = problem
       else throw problem
     }
-  }
-
-  /** Reads the trace if flights of an outlook have landed before any state contained them. */
-  async #readTakeoffs(outlook: Outlook): Promise<void> {
-    const [scenario, reports] = [this.#scenario, this.#reports]
-    if (scenario === undefined || reports === undefined || !lacksTakeoffs(outlook, scenario, reports)) return
-    reports.keepTakeoffsOfTrace(recordOf(scenario, await this.#service.trace(this.id)).legs)
   }
 
   #fail(problem: unknown): void {

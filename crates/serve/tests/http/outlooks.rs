@@ -2,10 +2,14 @@
 
 use std::io::Write as _;
 use std::net::TcpStream;
+use std::sync::Arc;
 use std::time::Duration;
 
-use serde_json::json;
+use serde_json::{Value, json};
+use vertifleet_core::{DaySeed, Network};
+use vertifleet_policy::{Greedy, play};
 use vertifleet_serve::{Limits, Location};
+use vertifleet_sim::Simulation;
 
 use crate::api::service;
 use crate::running::Running;
@@ -38,6 +42,30 @@ fn an_outlook_is_the_simulated_day_and_what_if_leaves_the_day_alone() {
             .any(|leg| leg["aircraft"] == "A99")
     );
     assert_eq!(service.get(&day).json["seq"], 0);
+}
+
+#[test]
+fn a_flight_of_an_outlook_takes_off_when_its_charge_suffices() {
+    let (_folder, service) = service();
+    let network = Network::shipped("paper-quick").expect("a shipped network");
+    let day = Arc::new(network.draw(DaySeed::validation(3).expect("a seed")));
+    let mut takeoffs = Vec::new();
+    let mut simulation = Simulation::new(Arc::clone(&day));
+    play(&mut simulation, &mut Greedy, |row| {
+        takeoffs.push((row.from != row.to).then(|| row.takeoff.to_string()));
+    })
+    .expect("a day");
+    assert!(takeoffs.iter().flatten().count() > 100);
+    let scenario: Value = serde_json::from_str(&day.to_json()).expect("JSON");
+    let body = json!({"scenario": scenario, "policy": "greedy"});
+    let path = service.post("/v1/days", &body).made("/v1/days");
+    let outlook = service.get(&format!("{path}/outlook")).json;
+    let legs = outlook["legs"].as_array().expect("a list");
+    let given = legs.iter().map(|leg| leg["takeoff"].as_str().map(ToOwned::to_owned));
+    assert_eq!(given.collect::<Vec<_>>(), takeoffs);
+    let to_full = service.get(&format!("{}/outlook", service.new_day("greedy"))).json;
+    let legs = to_full["legs"].as_array().expect("a list");
+    assert!(legs.iter().all(|leg| leg.get("takeoff").is_none()), "{to_full}");
 }
 
 #[test]
