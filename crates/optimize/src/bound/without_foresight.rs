@@ -4,7 +4,7 @@
 //! Each day is bounded with a [`Penalty`] for knowing its delays. Demand, closures and outages are
 //! known from the start, as in [`upper_bound`](super::upper_bound).
 
-use vertifleet_core::{Network, Scenario, Stop, TakeoffDelays};
+use vertifleet_core::{Charging, Network, Scenario, Stop, TakeoffDelays};
 
 use super::certificate::Certificate;
 use super::ladder::{PathLevels, Relaxed, search};
@@ -19,7 +19,9 @@ use crate::Error;
 /// delays. The mean of these bounds over days that are drawn is at least the mean profit of any
 /// policy that does not know the delays of a slot before the slot begins; the bound of one day is
 /// no bound on that day alone. It is that of [`upper_bound`](super::upper_bound) where the network
-/// has no delays. `None` soon after `stopped` is requested.
+/// has no delays, and on days that charge as needed: the penalty ignores that a delayed aircraft
+/// charges for longer, and made the bound of such days looser. `None` soon after `stopped` is
+/// requested.
 ///
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step, and [`Error::OtherNetwork`] if
@@ -34,7 +36,12 @@ pub fn bound_without_foresight(
     match (delays, network.takeoff_delay_probabilities()) {
         (None, None) => upper_bound_unless(stopped, scenario, step),
         (Some(delays), Some(probabilities)) if can_be_drawn(delays, &probabilities) => {
-            bound_with_penalty(stopped, scenario, delays, &probabilities, step)
+            match scenario.operations.charging {
+                Charging::ToFull => {
+                    bound_with_penalty(stopped, scenario, delays, &probabilities, step)
+                }
+                Charging::AsNeeded => upper_bound_unless(stopped, scenario, step),
+            }
         }
         _ => {
             let (day, network) = (scenario.name.clone(), network.name().to_owned());

@@ -6,13 +6,13 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 use vertifleet_core::{
-    Aircraft, AircraftType, Charging, Day, Disturbances, Matrix, Operations, Scenario, Stop,
-    TakeoffDelays, Time, TypeIx, Vertiport, VertiportIx,
+    Aircraft, AircraftType, Charging, Day, DaySeed, Disturbances, Matrix, Network, Operations,
+    Scenario, Stop, TakeoffDelays, Time, TypeIx, Vertiport, VertiportIx,
 };
 use vertifleet_sim::Simulation;
 use vertifleet_testkit::{Size, any_extended_day};
 
-use super::without_foresight::bound_with_penalty;
+use super::without_foresight::{bound_with_penalty, bound_without_foresight};
 use super::{Step, upper_bound};
 
 /// Seconds by which a flight is late, if it is.
@@ -176,6 +176,19 @@ fn no_policy_without_foresight_earns_more_on_the_mean() {
         let (bound_usd, _) = world.bounds_usd(step);
         assert!(bound_usd >= *best_usd, "world {number}: {bound_usd}, possible {best_usd}");
     });
+}
+
+#[test]
+fn a_bound_without_foresight_is_no_higher_on_a_day_that_charges_as_needed() {
+    let text = include_str!("../../../../networks/disrupted.toml");
+    let text = text.replacen("[operations]", "[operations]\ncharging = \"as_needed\"", 1);
+    let network = Network::from_toml(&text, "disrupted.toml").expect("a network");
+    let day = network.draw(DaySeed::comparison(1).expect("a seed"));
+    let step = Step::from_minutes(60).expect("a step");
+    let with = upper_bound(&day, step).expect("a small day").upper_bound_usd();
+    let without = bound_without_foresight(&Stop::default(), &network, &day, step);
+    let without = without.expect("a small day").expect("it is not stopped").upper_bound_usd();
+    assert!(without <= with, "{without} $ without foresight, {with} $ with it");
 }
 
 /// A world of one aircraft, which flies from V0 to V1 or V2 and back with $40 each time, and then
