@@ -68,7 +68,8 @@ pub(crate) enum Command {
     /// how full each vertiport was, and what each aircraft did. Then solves changed days, with the
     /// policy and with the bound: one more stand at each of the eight vertiports with the highest
     /// shadow prices, one more aircraft of each type, one more seat in each type, and take-offs a
-    /// minute shorter.
+    /// minute shorter. Where days charge as needed, also 10 kWh more in every battery of a type,
+    /// and 1 kW more at every charger; all bounds then have at most 16 levels of charge.
     Explain(ExplainArguments),
     /// Write a played or planned day in the formats of other programs
     ///

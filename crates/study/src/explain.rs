@@ -46,6 +46,10 @@ pub struct Explanation {
     pub worth: Vec<Worth>,
 }
 
+/// The most levels of charge of the bounds on days that charge as needed. More take several times
+/// as long, and each explanation proves a dozen bounds or more.
+const LEVELS: u16 = 16;
+
 /// Plays a day with a policy, bounds it, and solves it again with one thing more or less at a time.
 /// `solved` is called with the number of changes once they are known, and with 0 after each of
 /// them, from any thread.
@@ -61,6 +65,7 @@ pub fn explain(
     stop: &Stop,
     solved: &(impl Fn(usize) + Sync),
 ) -> Result<Explanation, Error> {
+    let slices = slices.with_levels(LEVELS)?;
     let (trace, totals) = policy.play(name, scenario, stop)?;
     let bound = bound_of(scenario, slices, stop)?;
     let changes = worth::changes(scenario, &bound);
