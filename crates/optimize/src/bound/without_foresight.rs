@@ -1,8 +1,8 @@
 //! The bound without foresight: dollars that no policy earns more than on average if it learns of
 //! take-off delays only as they come.
 //!
-//! Each day is bounded with a [`Penalty`] for knowing its delays. Demand, closures and outages are
-//! known from the start, as in [`upper_bound`](super::upper_bound).
+//! Each day that charges to full is bounded with a [`Penalty`] for knowing its delays. Demand,
+//! closures and outages are known from the start, as in [`upper_bound`](super::upper_bound).
 
 use vertifleet_core::{Charging, Network, Scenario, Stop, TakeoffDelays};
 
@@ -20,8 +20,8 @@ use crate::Error;
 /// policy that does not know the delays of a slot before the slot begins; the bound of one day is
 /// no bound on that day alone. It is that of [`upper_bound`](super::upper_bound) where the network
 /// has no delays, and on days that charge as needed: the penalty ignores that a delayed aircraft
-/// charges for longer, and made the bound of such days looser. `None` soon after `stopped` is
-/// requested.
+/// charges for longer, and makes bounds with several levels of charge looser. `None` soon after
+/// `stopped` is requested.
 ///
 /// # Errors
 /// [`Error::TooManyFlights`] if the day is too large for this step, and [`Error::OtherNetwork`] if
