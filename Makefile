@@ -1,6 +1,6 @@
 # The project's two commands are `make demo` and `make test`; the rest is for its developers.
 
-.PHONY: demo program check test test-all rust-test python-light-test python-test console-test lint soak database console console-ready deny bench train suites notebooks python wheel sdist prepare tools
+.PHONY: demo program check test test-all rust-test python-checked-test python-test console-test lint soak database console console-ready deny bench train suites notebooks python python-light wheel sdist prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network. The dispatch service, half of a build, is left out.
 demo: prepare
@@ -22,11 +22,11 @@ check: prepare
 
 # Every test that needs neither a browser nor PyTorch nor Ray, documentation among them.
 test:
-	@scripts/groups rust-test python-light-test
+	@scripts/groups rust-test python-checked-test
 
 # Every test. Each group runs, also after another has failed, and the last lines name those that failed.
 test-all:
-	@scripts/groups rust-test console-test python-light-test python-test
+	@scripts/groups rust-test console-test python-checked-test python-test
 
 # The lints, which CI runs besides the tests.
 lint: prepare python tools console-ready
@@ -48,9 +48,9 @@ rust-test: prepare database
 # Two tests at a time, from the root: in python/, Ray's workers would import the sources, which have no extension module.
 PYTEST = bin/pytest -c python/pyproject.toml --numprocesses 2 --dist worksteal
 
-python-light-test: prepare
+python-checked-test: prepare
 	cargo test $(CHECKED) --no-run
-	@scripts/python light
+	@scripts/python checked
 	target/checked/python/$(PYTEST) -q --ignore python/tests/frameworks python/tests
 # The tests that need PyTorch or Ray, and a test of the wheel that users install.
 python-test: python
@@ -63,9 +63,11 @@ console-test: prepare
 	cargo test $(CHECKED) --no-run
 	cd web && npm test && npm run dist-test && npm run e2e
 
-# The Python package with all its extras, in python/.venv.
+# The Python package with all its extras, in python/.venv; and without PyTorch and Ray, which take 7 GB.
 python: prepare
 	@scripts/python
+python-light: prepare
+	@scripts/python light
 
 # The PostgreSQL server for the tests of services that share a database.
 database:
