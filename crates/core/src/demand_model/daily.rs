@@ -90,9 +90,16 @@ impl RawGravity {
         for (at, &weight) in self.weights.iter().enumerate() {
             limits::WEIGHT.check(weight, || member(&format!("weights[{at}]")))?;
         }
-        let pull = Matrix::from_fn(vertiports, |from, to| {
-            if from == to { 0.0 } else { self.weights[from.at()] * self.weights[to.at()] }
-        });
+        // A product of tiny weights could be 0 or lose digits. A power of two changes no digit.
+        let (_, exponent) = libm::frexp(self.weights.iter().copied().fold(0.0, f64::max));
+        let weight = |at: VertiportIx| libm::ldexp(self.weights[at.at()], -exponent);
+        let pull =
+            Matrix::from_fn(
+                vertiports,
+                |from, to| {
+                    if from == to { 0.0 } else { weight(from) * weight(to) }
+                },
+            );
         let all: f64 = pull.cells().iter().sum();
         let scale = if all > 0.0 { self.passengers / all } else { 0.0 };
         Ok(Matrix::from_fn(vertiports, |from, to| pull[(from, to)] * scale))

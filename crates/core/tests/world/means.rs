@@ -124,3 +124,21 @@ fn a_surge_of_few_passengers_is_as_large_as_it_should_be() {
         assert!((found - asked).abs() <= 4.0 * error, "{asked} became {found}");
     }
 }
+
+/// Products of such weights are 0, or have few digits.
+#[test]
+fn demand_by_gravity_depends_on_the_ratios_of_weights_only() {
+    let weights = "weights = [3, 3, 2, 4, 3, 3, 1, 1, 1]";
+    assert!(NEW_YORK.contains(weights));
+    let drawn = |unit: f64| {
+        let scaled = [3, 3, 2, 4, 3, 3, 1, 1, 1].map(|one| format!("{:e}", f64::from(one) * unit));
+        let text = NEW_YORK.replacen(weights, &format!("weights = [{}]", scaled.join(", ")), 1);
+        let network = Network::from_toml(&text, "gravity.toml").expect("a network");
+        network.draw(DaySeed::comparison(1).expect("a small seed")).demand.clone()
+    };
+    let shipped = drawn(1.0);
+    assert!(shipped[4].cells().iter().any(|&passengers| passengers > 0));
+    for power in [-500, -530, -560, -1_000, 17] {
+        assert!(drawn(2.0_f64.powi(power)) == shipped, "2^{power}");
+    }
+}
