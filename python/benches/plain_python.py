@@ -73,8 +73,10 @@ class Charger:
         self.full_s = 0.0
         points = kind.get("charge_curve", [[0.0, self.most_kw], [1.0, self.most_kw]])
         for (charge, kw), (next_charge, next_kw) in pairwise(self._limited(points)):
-            if next_charge > charge:
-                self._push(charge * self.full_mwh, next_charge * self.full_mwh, kw, next_kw)
+            start, end = charge * self.full_mwh, next_charge * self.full_mwh
+            # Between closer points the power steps: a slope could exceed every number.
+            if end - start >= 1e-200:
+                self._push(start, end, kw, next_kw)
 
     def _limited(self, points: Sequence[Sequence[float]]) -> list[tuple[float, float]]:
         """The points with at most `most_kw`, and one more wherever the curve crosses it."""

@@ -5,11 +5,19 @@
 //! of time: from dc/dt = p + k (c - c0) follows c = c0 + p (e^(k t) - 1) / k. Exponentials and
 //! logarithms go through the `libm` crate, because the results of the system's library depend on
 //! the machine.
+//!
+//! All times are finite, whatever a checked curve is. A segment has one width, from which both its
+//! slope and its charges come, so that the power stays above 0 up to its end: the least power is
+//! 1 kW and the greatest 100,000 kW, and k (c - c0) / p is at least -0.99999. No loop here ends by
+//! a computed time.
 
 use crate::{AircraftType, CurvePoint, Vertiport};
 
 /// More than the errors of computed seconds of charging, of which there are at most 18 million.
 const ROUNDING_S: f64 = 1e-3;
+/// The power steps between points of a curve that are less than this apart, mWh: the slope of a
+/// line there could exceed every number.
+const STEP_MWH: f64 = 1e-200;
 /// Milliwatt-hours a second that one kilowatt charges.
 const MWH_A_SECOND: f64 = 1e6 / 3600.0;
 
@@ -65,6 +73,8 @@ pub struct ChargeRate {
 struct Segment {
     /// The charge where it begins, mWh.
     from_mwh: f64,
+    /// Energy that is charged in it, mWh; above 0.
+    width_mwh: f64,
     /// The seconds that an empty battery charges until then.
     from_s: f64,
     /// Power there, mWh a second.
@@ -74,22 +84,27 @@ struct Segment {
 }
 
 impl Segment {
+    /// The seconds to a charge of this segment. Below an empty battery, which only flights beyond
+    /// the range would leave, the power is that at its start.
     #[inline]
     fn seconds_to(&self, mwh: f64) -> f64 {
-        let more = mwh - self.from_mwh;
-        if self.slope == 0.0 {
+        let more = (mwh - self.from_mwh).min(self.width_mwh);
+        if self.slope == 0.0 || more < 0.0 {
             return self.from_s + more / self.power;
         }
         self.from_s + libm::log1p(self.slope * more / self.power) / self.slope
     }
 
+    /// The charge at a time, at most that where the segment ends.
     #[inline]
     fn mwh_at(&self, seconds: f64) -> f64 {
         let more_s = seconds - self.from_s;
-        if self.slope == 0.0 {
-            return self.from_mwh + more_s * self.power;
-        }
-        self.from_mwh + self.power * libm::expm1(self.slope * more_s) / self.slope
+        let more = if self.slope == 0.0 {
+            more_s * self.power
+        } else {
+            self.power * libm::expm1(self.slope * more_s) / self.slope
+        };
+        self.from_mwh + more.min(self.width_mwh)
     }
 }
 
@@ -110,16 +125,16 @@ impl ChargeRate {
 
     /// Adds the range between two points, which begins where the last one ends.
     fn push(&mut self, from: CurvePoint, to: CurvePoint) {
-        let full = self.full_mwh as f64;
-        let power = from.kw * MWH_A_SECOND;
-        let width = (to.charge - from.charge) * full;
-        // A curve may reach the limit in one of its points.
-        if width <= 0.0 {
+        let [from_mwh, to_mwh] = [from, to].map(|point| point.charge * self.full_mwh as f64);
+        let width_mwh = to_mwh - from_mwh;
+        // A curve may also reach the limit in one of its points.
+        if width_mwh < STEP_MWH {
             return;
         }
-        let slope = (to.kw * MWH_A_SECOND - power) / width;
-        let segment = Segment { from_mwh: from.charge * full, from_s: self.full_s, power, slope };
-        self.full_s = segment.seconds_to(to.charge * full);
+        let power = from.kw * MWH_A_SECOND;
+        let slope = (to.kw * MWH_A_SECOND - power) / width_mwh;
+        let segment = Segment { from_mwh, width_mwh, from_s: self.full_s, power, slope };
+        self.full_s = segment.seconds_to(to_mwh);
         self.segments.push(segment);
     }
 
@@ -132,7 +147,20 @@ impl ChargeRate {
     #[inline]
     fn seconds_to(&self, mwh: f64) -> f64 {
         let later = self.segments.partition_point(|segment| segment.from_mwh <= mwh);
-        self.segments[later.saturating_sub(1)].seconds_to(mwh)
+        self.segments.get(later.saturating_sub(1)).map_or(0.0, |segment| segment.seconds_to(mwh))
+    }
+
+    /// The charge of an empty battery after some seconds, to the nearest mWh.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "between 0 and the capacity, which is below 2^53 mWh"
+    )]
+    #[inline]
+    fn mwh_at(&self, seconds: f64) -> u64 {
+        let later = self.segments.partition_point(|segment| segment.from_s <= seconds);
+        let segment = self.segments.get(later.saturating_sub(1));
+        segment.map_or(0, |segment| segment.mwh_at(seconds).round() as u64)
     }
 
     /// A battery that begins to charge here.
@@ -185,24 +213,11 @@ impl ChargeRate {
     }
 
     /// The charge from which a full battery is some seconds away, mWh.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "between 0 and the capacity, which is below 2^53 mWh"
-    )]
     pub fn with_to_full_mwh(&self, seconds: f64) -> u64 {
-        let at_s = (self.full_s - seconds).clamp(0.0, self.full_s);
-        let later = self.segments.partition_point(|segment| segment.from_s <= at_s);
-        let mwh = self.segments[later.saturating_sub(1)].mwh_at(at_s).round() as u64;
-        mwh.min(self.full_mwh)
+        self.mwh_at((self.full_s - seconds).clamp(0.0, self.full_s)).min(self.full_mwh)
     }
 
     /// The charge after some seconds, to the nearest mWh and at most a full battery.
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "at most the capacity, which is whole and below 2^53 mWh"
-    )]
     #[inline]
     pub fn charged_mwh(&self, from: Battery, seconds: u32) -> u64 {
         if seconds == 0 || from.mwh >= self.full_mwh {
@@ -212,9 +227,7 @@ impl ChargeRate {
         if at_s >= self.full_s {
             return self.full_mwh;
         }
-        let later = self.segments.partition_point(|segment| segment.from_s <= at_s);
-        let mwh = self.segments[later.saturating_sub(1)].mwh_at(at_s).round() as u64;
-        mwh.clamp(from.mwh, self.full_mwh)
+        self.mwh_at(at_s).clamp(from.mwh, self.full_mwh)
     }
 
     /// The fewest whole seconds after which a battery has the charge that it needs.
@@ -234,20 +247,16 @@ impl ChargeRate {
         if off_s > ROUNDING_S {
             seconds as u32
         } else {
-            self.searched_s(from, need, seconds as u32)
+            self.rounded_s(from, need, exact_s.round() as u32)
         }
     }
 
-    /// The same where rounding may matter, from a number of seconds that is about right.
+    /// The same where rounding may matter: the nearest whole number of seconds, if they suffice,
+    /// or one more.
     #[cold]
-    fn searched_s(&self, from: Battery, need: Need, mut seconds: u32) -> u32 {
-        while self.charged_mwh(from, seconds) < need.mwh {
-            seconds += 1;
-        }
-        while seconds > 0 && self.charged_mwh(from, seconds - 1) >= need.mwh {
-            seconds -= 1;
-        }
-        seconds
+    fn rounded_s(&self, from: Battery, need: Need, nearest_s: u32) -> u32 {
+        let suffices = self.charged_mwh(from, nearest_s) >= need.mwh;
+        if suffices { nearest_s } else { nearest_s + 1 }
     }
 }
 
@@ -259,7 +268,7 @@ fn limited(curve: &[CurvePoint], most_kw: f64) -> Vec<CurvePoint> {
         let (from, to) = (pair[0], pair[1]);
         if (from.kw < most_kw) != (to.kw < most_kw) {
             let share = (most_kw - from.kw) / (to.kw - from.kw);
-            let charge = from.charge + share * (to.charge - from.charge);
+            let charge = (from.charge + share * (to.charge - from.charge)).min(to.charge);
             points.push(CurvePoint { charge, kw: most_kw });
         }
         points.push(limit(to));
@@ -269,7 +278,8 @@ fn limited(curve: &[CurvePoint], most_kw: f64) -> Vec<CurvePoint> {
 
 #[cfg(test)]
 mod tests {
-    use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
+    use proptest::collection::vec;
+    use proptest::prelude::{Just, Strategy, prop_assert, prop_assert_eq, prop_oneof, proptest};
 
     use super::{ChargeRate, whole_mwh};
     use crate::{AircraftType, ChargeCurve, CurvePoint, Vertiport};
@@ -324,7 +334,89 @@ mod tests {
         assert_eq!(rate.full_s().round(), 2_711.0);
     }
 
+    /// A step that is written as two neighbouring numbers: 100 kWh take 0.8 / 1.5 and 20 hours.
+    #[test]
+    fn a_step_takes_no_time() {
+        let neighbour = 0.8_f64.next_up();
+        for step in [
+            vec![(0.0, 150.0), (0.8, 150.0), (neighbour, 1.0), (1.0, 1.0)],
+            vec![(0.0, 1.0), (5e-324, 150.0), (0.8, 150.0), (neighbour, 1.0), (1.0, 1.0)],
+            vec![
+                (0.0, 150.0),
+                (0.8, 150.0),
+                (neighbour, 1e5),
+                (neighbour.next_up(), 1.0),
+                (1.0, 1.0),
+            ],
+        ] {
+            let rate = ChargeRate::of(&kind(100.0, 150.0, &step), &vertiport(None));
+            assert!((rate.full_s() - 73_920.0).abs() < 1e-6, "{} {step:?}", rate.full_s());
+            let (empty, full) = (rate.battery(0), rate.need(whole_mwh(100.0)));
+            assert_eq!(rate.needed_s(empty, rate.need(whole_mwh(80.0))), 1_920);
+            assert_eq!(rate.needed_s(empty, full), 73_920);
+            assert_eq!(rate.charged_mwh(empty, 1_920 + 3_600), whole_mwh(81.0));
+        }
+    }
+
+    #[test]
+    fn a_battery_that_holds_nothing_is_full() {
+        let rate = ChargeRate::of(&kind(1e-7, 150.0, &[]), &vertiport(None));
+        assert_eq!((rate.full_mwh(), rate.full_s()), (0, 0.0));
+        assert_eq!(rate.needed_s(rate.battery(0), rate.need(1)), 0);
+        assert_eq!((rate.charged_mwh(rate.battery(0), 60), rate.with_to_full_mwh(5.0)), (0, 0));
+    }
+
+    /// Any charges, with some of their neighbours, and any powers within the limits.
+    fn extreme_curve() -> impl Strategy<Value = Vec<(f64, f64)>> {
+        let near = |charge: f64| vec![charge, charge.next_up(), charge.next_up().next_up()];
+        let charge =
+            prop_oneof![0.0..1.0_f64, (-320.0..0.0_f64).prop_map(|power| 10_f64.powf(power))];
+        let clusters = vec(charge.prop_map(near), 0..6);
+        let power = || {
+            prop_oneof![
+                Just(1.0),
+                Just(1e5),
+                Just(99_999.0),
+                (0.0..5.0_f64).prop_map(|power| 10_f64.powf(power))
+            ]
+        };
+        (clusters, vec(power(), 32)).prop_map(|(clusters, powers)| {
+            let mut charges = vec![0.0, 5e-324, 1.0_f64.next_down(), 1.0];
+            charges.extend(clusters.into_iter().flatten().filter(|&charge| charge < 1.0));
+            charges.sort_by(f64::total_cmp);
+            charges.dedup();
+            charges.into_iter().zip(powers).collect()
+        })
+    }
+
     proptest! {
+        /// Times lie between those at the greatest and at the least power, and the charge never
+        /// falls.
+        #[test]
+        fn every_time_of_an_extreme_curve_is_finite(
+            curve in extreme_curve(), battery_kwh in prop_oneof![Just(5e3), Just(1e-6), 1e-6..5e3_f64],
+            charge_kw in prop_oneof![Just(1e5), Just(1.0), 1.0..1e5_f64],
+            shares in vec(0.0..=1.0_f64, 8)
+        ) {
+            let rate = ChargeRate::of(&kind(battery_kwh, charge_kw, &curve), &vertiport(None));
+            let full_mwh = rate.full_mwh();
+            let slowest_s = 3_600.0 * full_mwh as f64 / 1e6;
+            prop_assert!((0.0..=slowest_s * (1.0 + 1e-9)).contains(&rate.full_s()), "{}", rate.full_s());
+            prop_assert!(rate.full_s() >= slowest_s / charge_kw * (1.0 - 1e-9) - 1e-6);
+            let points = shares.iter().copied().chain(curve.iter().map(|&(charge, _)| charge));
+            let charges = points.map(|share| whole_mwh(share * battery_kwh).min(full_mwh));
+            let mut charges: Vec<u64> = charges.collect();
+            charges.sort_unstable();
+            for pair in charges.windows(2) {
+                let (from, to) = (rate.battery(pair[0]), rate.need(pair[1]));
+                let seconds = rate.needed_s(from, to);
+                prop_assert!(rate.charged_mwh(from, seconds) >= pair[1]);
+                prop_assert!(seconds == 0 || rate.charged_mwh(from, seconds - 1) < pair[1]);
+                let between_s = rate.seconds_between(pair[0] as f64 / 1e6, pair[1] as f64 / 1e6);
+                prop_assert!((0.0..=slowest_s * (1.0 + 1e-9)).contains(&between_s), "{between_s}");
+            }
+        }
+
         /// The curve is integrated in steps of a hundredth of a second.
         #[test]
         fn charges_agree_with_small_steps(

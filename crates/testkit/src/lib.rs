@@ -23,7 +23,9 @@ use std::sync::Arc;
 
 use vertifleet_core::{DaySeed, Network, Scenario};
 
-pub use any_energy_day::{any_energy_day, energy_day, with_energy};
+pub use any_energy_day::{
+    any_energy_day, any_extreme_energy_day, energy_day, extreme_energy_day, with_energy,
+};
 pub use any_extended_day::extended_day;
 pub use any_small_day::small_day;
 pub use numbered_days::{Size, any_day, any_extended_day};

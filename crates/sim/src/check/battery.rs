@@ -25,6 +25,9 @@ pub(super) struct Batteries<'a> {
     of: Vec<Battery>,
 }
 
+/// More than the seconds that any battery takes to charge: 5,000 kWh at 1 kW.
+const LONGEST_S: u64 = 20_000_000;
+
 /// The battery of one aircraft since it landed, or since operations started.
 #[derive(Debug)]
 struct Battery {
@@ -183,7 +186,8 @@ impl Plugged<'_> {
             return [landed_mwh; 2];
         }
         let kwh = self.charger.after(landed_mwh as f64 / 1e6, seconds as f64);
-        both_nearest(1e6 * kwh).map(|mwh| mwh.min(self.battery_mwh))
+        let doubt_mwh = 1e6 * self.charger.doubt_kwh(kwh);
+        both_nearest(1e6 * kwh, doubt_mwh).map(|mwh| mwh.min(self.battery_mwh))
     }
 
     /// Whether `takeoff_s` is the first second from `time_s` on at which the battery holds enough.
@@ -205,11 +209,7 @@ impl Plugged<'_> {
     /// it holds when it is full.
     fn first_second(&self, landed_mwh: u64, needed_mwh: u64, time_s: u64) -> u64 {
         let enough = |wait_s| self.held_mwh(landed_mwh, time_s + wait_s)[1] >= needed_mwh;
-        let mut limit_s = 1;
-        while !enough(limit_s) {
-            limit_s *= 2;
-        }
-        time_s + first(limit_s, enough)
+        time_s + first(LONGEST_S, enough)
     }
 
     /// The least charge at landing from which the battery holds this much at a time, if any.

@@ -7,12 +7,18 @@
 
 use vertifleet_core::{AircraftType, ChargeCurve, CurvePoint, Vertiport};
 
-use super::rounding::{ROUNDING, nearest_within};
+use super::rounding::{ROUNDING, nearest_within, whole_mwh};
+
+/// A time of charging from empty to full is known to this share of it, by any way to add up the
+/// times of its pieces.
+const TIME_ROUNDING: f64 = 1e-15;
 
 /// An aircraft's battery at a vertiport's charger.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Charger<'a> {
     battery_kwh: f64,
+    /// The battery in whole milliwatt-hours, of which the charges of a curve are shares.
+    full_kwh: f64,
     /// The most power that aircraft and vertiport allow.
     pub(super) kw: f64,
     curve: Option<&'a [CurvePoint]>,
@@ -31,7 +37,8 @@ impl<'a> Charger<'a> {
     pub(super) fn of(kind: &'a AircraftType, vertiport: &Vertiport) -> Self {
         let kw = vertiport.charger_kw.map_or(kind.charge_kw, |limit| limit.min(kind.charge_kw));
         let curve = kind.charge_curve.as_ref().map(ChargeCurve::points);
-        Self { battery_kwh: kind.battery_kwh, kw, curve }
+        let full_kwh = whole_mwh(kind.battery_kwh) as f64 / 1e6;
+        Self { battery_kwh: kind.battery_kwh, full_kwh, kw, curve }
     }
 
     /// Whether the power changes with the charge.
@@ -55,7 +62,18 @@ impl<'a> Charger<'a> {
         }
         // The charge at the start is a difference, so it is known to a share of the whole battery.
         let battery_s = 3600.0 * self.battery_kwh / slowest_kw;
-        nearest_within(seconds, (seconds + battery_s) * ROUNDING, stated)
+        let rounded_s = 3600.0 * (self.battery_kwh - self.full_kwh).abs() / slowest_kw;
+        nearest_within(seconds, (seconds + battery_s) * ROUNDING + rounded_s, stated)
+    }
+
+    /// The precision to which a charge after some seconds is known, kWh. Where the power rises
+    /// steeply, a tiny time of charging at the least power is a larger charge at the greatest.
+    pub(super) fn doubt_kwh(&self, held_kwh: f64) -> f64 {
+        let steepness = self.curve.map_or(0.0, |points| {
+            let powers = || points.iter().map(|point| point.kw.min(self.kw));
+            powers().fold(1.0, f64::max) / powers().fold(self.kw, f64::min)
+        });
+        held_kwh * ROUNDING + self.full_kwh * TIME_ROUNDING * steepness
     }
 
     /// What a battery that holds `from_kwh` holds after `seconds` of charging.
@@ -71,13 +89,13 @@ impl<'a> Charger<'a> {
             }
             left_s -= piece_s;
         }
-        self.battery_kwh
+        self.full_kwh
     }
 
     /// The curve under the limit on the power: each line between two points, cut in two where it
     /// crosses the limit.
     fn pieces(&self, points: &'a [CurvePoint]) -> impl Iterator<Item = Piece> {
-        let (battery_kwh, limit_kw) = (self.battery_kwh, self.kw);
+        let (full_kwh, limit_kw) = (self.full_kwh, self.kw);
         points.windows(2).flat_map(move |pair| {
             let (from, to) = (pair[0], pair[1]);
             let (from_kw, to_kw) = (from.kw.min(limit_kw), to.kw.min(limit_kw));
@@ -90,7 +108,7 @@ impl<'a> Charger<'a> {
                 (to.charge, to_kw)
             };
             let [from_kwh, middle_kwh, to_kwh] =
-                [from.charge, middle, to.charge].map(|charge| charge * battery_kwh);
+                [from.charge, middle, to.charge].map(|charge| charge * full_kwh);
             [
                 Piece { from_kwh, to_kwh: middle_kwh, from_kw, to_kw: middle_kw },
                 Piece { from_kwh: middle_kwh, to_kwh, from_kw: middle_kw, to_kw },
@@ -155,7 +173,7 @@ mod tests {
 
     #[test]
     fn constant_power_needs_no_curve() {
-        let charger = Charger { battery_kwh: 100.0, kw: 60.0, curve: None };
+        let charger = Charger { battery_kwh: 100.0, full_kwh: 100.0, kw: 60.0, curve: None };
         assert_eq!(charger.refill_s(45.0, None), 2_700);
         close(charger.after(55.0, 600.0), 65.0);
         close(charger.after(55.0, 2_701.0), 100.0);
@@ -166,7 +184,8 @@ mod tests {
     #[test]
     fn a_taper_takes_a_logarithm() {
         let points = curve(&[(0.0, 60.0), (0.5, 60.0), (1.0, 30.0)]);
-        let charger = Charger { battery_kwh: 100.0, kw: 80.0, curve: Some(&points) };
+        let charger =
+            Charger { battery_kwh: 100.0, full_kwh: 100.0, kw: 80.0, curve: Some(&points) };
         let half_s = 3600.0 * std::f64::consts::LN_2 / 0.6;
         assert_eq!(charger.refill_s(50.0, None), 4_159);
         assert_eq!(charger.refill_s(60.0, None), 4_759, "10 minutes of constant power more");
@@ -182,7 +201,8 @@ mod tests {
     #[test]
     fn a_limit_cuts_the_curve_where_it_crosses() {
         let points = curve(&[(0.0, 60.0), (0.5, 60.0), (1.0, 30.0)]);
-        let charger = Charger { battery_kwh: 100.0, kw: 45.0, curve: Some(&points) };
+        let charger =
+            Charger { battery_kwh: 100.0, full_kwh: 100.0, kw: 45.0, curve: Some(&points) };
         close(charger.after(50.0, 2_000.0), 75.0);
         let taper_s = 3600.0 * 1.5_f64.ln() / 0.6;
         close(taper_s, 2_432.790_648_648_986);
@@ -198,7 +218,8 @@ mod tests {
             curve(&[(0.0, 1.0), (0.999, 1e5), (1.0, 1.0)]),
             curve(&[(0.0, 50.0), (0.3, 50.000_000_001), (1.0, 50.0)]),
         ] {
-            let charger = Charger { battery_kwh: 200.0, kw: 9e4, curve: Some(&points) };
+            let charger =
+                Charger { battery_kwh: 200.0, full_kwh: 200.0, kw: 9e4, curve: Some(&points) };
             for lacking_kwh in [200.0, 123.456, 1.0, 0.25] {
                 let due_s = charger.refill_s(lacking_kwh, None) as f64;
                 let from_kwh = 200.0 - lacking_kwh;

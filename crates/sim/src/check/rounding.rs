@@ -35,20 +35,21 @@ pub(super) fn whole_mwh(kwh: f64) -> u64 {
     nearest(1e6 * kwh, None)
 }
 
-/// The one or two whole numbers that are nearest to an amount, the lower one first.
+/// The one or two whole numbers that are nearest to an amount which is known to within `doubt`, the
+/// lower one first.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "finite and never negative"
 )]
-pub(super) fn both_nearest(amount: f64) -> [u64; 2] {
+pub(super) fn both_nearest(amount: f64, doubt: f64) -> [u64; 2] {
     let down = amount as u64;
-    [down, down + 1].map(|neighbour| nearest(amount, Some(neighbour)))
+    [down, down + 1].map(|neighbour| nearest_within(amount, doubt, Some(neighbour)))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{both_nearest, nearest};
+    use super::{ROUNDING, both_nearest, nearest};
 
     #[test]
     fn durations_go_to_the_nearest_second_and_halves_go_up() {
@@ -75,8 +76,8 @@ mod tests {
         assert_eq!(nearest(half, Some(555)), 554);
         assert_eq!(nearest(553.499_999, Some(554)), 553);
         assert_eq!(nearest(553.500_001, Some(553)), 554);
-        assert_eq!(both_nearest(half), [553, 554]);
-        assert_eq!(both_nearest(553.499_999), [553, 553]);
-        assert_eq!(both_nearest(553.500_001), [554, 554]);
+        assert_eq!(both_nearest(half, half * ROUNDING), [553, 554]);
+        assert_eq!(both_nearest(553.499_999, 1e-9), [553, 553]);
+        assert_eq!(both_nearest(553.500_001, 1e-9), [554, 554]);
     }
 }

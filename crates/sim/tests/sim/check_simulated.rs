@@ -12,8 +12,7 @@ use vertifleet_core::{Charging, Scenario, Time, VertiportIx};
 use vertifleet_sim::check::check;
 use vertifleet_sim::{DayTotals, Simulation, Trace, TraceRow};
 
-use vertifleet_testkit::energy_day;
-use vertifleet_testkit::small_day;
+use vertifleet_testkit::{energy_day, extreme_energy_day, small_day};
 
 /// Plays a day at random. Each draw chooses among the feasible vertiports; the draws are used
 /// cyclically.
@@ -194,6 +193,15 @@ proptest! {
         let (_, trace) = play(&day, &draws);
         let report = check(&day, &trace);
         prop_assert!(report.is_valid(), "{report}");
+    }
+
+    /// Curves with neighbouring numbers for charges, batteries of a milliwatt-hour and of 5,000 kWh,
+    /// the least and the greatest powers.
+    #[test]
+    fn simulator_and_checker_agree_on_extreme_curves(day in extreme_energy_day(), draws in draws()) {
+        let (_, trace) = play(&day, &draws);
+        let report = check(&day, &trace);
+        prop_assert!(report.is_valid(), "{}", report);
     }
 
     #[test]
