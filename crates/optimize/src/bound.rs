@@ -19,6 +19,7 @@ mod ladder;
 mod market;
 mod master;
 mod money;
+mod outages;
 mod penalty;
 mod prices;
 #[cfg(test)]

@@ -21,7 +21,7 @@ use super::{Bound, Step, upper_bound_unless};
 use crate::Error;
 
 /// To be raised whenever the search would find other prices.
-const VERSION: u64 = 4;
+const VERSION: u64 = 5;
 /// No file that this program wrote is longer.
 const LONGEST: u64 = 256 << 20;
 

@@ -101,10 +101,13 @@ fn places(
 }
 
 /// The layer that an aircraft belongs to.
-fn layer_of(day: &Scenario, expanded: &TimeExpandedDay, aircraft: AircraftIx) -> usize {
-    let waits_freely = day.disturbances.outages.iter().any(|outage| outage.aircraft == aircraft);
-    let kind = day.aircraft[aircraft.at()].kind;
-    let own = |layer: &Layer| (layer.kind, layer.waits_freely) == (kind, waits_freely);
+fn layer_of(expanded: &TimeExpandedDay, aircraft: AircraftIx) -> usize {
+    let group = expanded.group_of[aircraft.at()];
+    let mut groups = 0;
+    let own = |layer: &Layer| {
+        groups += layer.starts.len();
+        group < groups
+    };
     expanded.layers.iter().position(own).expect("every aircraft has a layer")
 }
 
@@ -127,7 +130,7 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
                 taken[slice * expanded.size() + place] += 1;
                 left -= prices.stand[slice * expanded.size() + place];
             }
-            let layer = layer_of(day, &expanded, aircraft);
+            let layer = layer_of(&expanded, aircraft);
             for row in
                 trace.rows.iter().filter(|row| row.aircraft == aircraft && row.to != row.from)
             {
@@ -164,7 +167,7 @@ fn takes_each_step_of_the_proof(day: &Arc<Scenario>, step_s: u32, mix: u64) {
         let most = expanded.market.surplus(&prices.flight);
         assert!(surplus <= most, "passengers have {surplus} left, at most {most}");
         let penalties = AircraftIx::all(day.aircraft.len()).map(|aircraft| {
-            i128::from(payments(&expanded, layer_of(day, &expanded, aircraft), &trace, aircraft))
+            i128::from(payments(&expanded, layer_of(&expanded, aircraft), &trace, aircraft))
         });
         let left = profit - penalties.sum::<i128>();
         assert!(left <= bound, "{left} is earned after the penalty, the bound is {bound}");

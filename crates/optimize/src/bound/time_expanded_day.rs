@@ -17,6 +17,7 @@ use super::charge_levels::{ChargeLevels, Charged, Level};
 use super::charging_time::{ChargingTime, Use};
 use super::market::{Market, Part, compact};
 use super::money;
+use super::outages;
 use super::penalty::Penalty;
 use super::slices::Slices;
 use crate::Error;
@@ -389,14 +390,16 @@ fn layers(
     ready: &[Time],
     charging: Option<(&ChargeLevels<'_>, &ChargingTime)>,
 ) -> (Vec<Layer>, Vec<usize>) {
-    let has_outage = has_outage(scenario);
+    let ready_at = |position: usize| {
+        let first = || first_decision(scenario, AircraftIx::new(position));
+        ready.get(position).copied().unwrap_or_else(first)
+    };
+    let has_outage = outages::may_happen(scenario, ready_at);
     // An aircraft that waits for charge decides at other times than on its way without the wait.
     let all_wait = scenario.operations.charging == Charging::AsNeeded;
     let start_of = |position: usize| {
         let aircraft = &scenario.aircraft[position];
-        let first = || first_decision(scenario, AircraftIx::new(position));
-        let ready = ready.get(position).copied().unwrap_or_else(first);
-        let ready_s = ready.since(scenario.operations.start);
+        let ready_s = ready_at(position).since(scenario.operations.start);
         let (kind, charge_kwh) = (aircraft.kind, scenario.start_charge_kwh(aircraft));
         let charged = charging.map(|(levels, time)| {
             (levels.at_start(kind, charge_kwh), time.at_start_s(kind, charge_kwh))
@@ -430,15 +433,6 @@ fn layers(
         }
     }
     (layers, group_of)
-}
-
-/// Whether each aircraft has an outage.
-fn has_outage(scenario: &Scenario) -> Vec<bool> {
-    let mut has_outage = vec![false; scenario.aircraft.len()];
-    for outage in &scenario.disturbances.outages {
-        has_outage[outage.aircraft.at()] = true;
-    }
-    has_outage
 }
 
 /// Seconds by which flights from a vertiport take off late in the slot that contains a time.

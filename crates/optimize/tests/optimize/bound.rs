@@ -6,7 +6,8 @@ use std::sync::Arc;
 use crate::exhaustive::best_of_all;
 use rayon::prelude::*;
 use vertifleet_core::{
-    Coded, DaySeed, Matrix, Network, Scenario, Stop, TakeoffDelays, Time, TypeIx, VertiportIx,
+    AircraftIx, Coded, DaySeed, Matrix, Network, Outage, Scenario, Stop, TakeoffDelays, Time,
+    TypeIx, VertiportIx,
 };
 use vertifleet_optimize::{Error, Rolling, Step, kept_upper_bound, upper_bound};
 use vertifleet_policy::{BidPricePolicy, Greedy, Policy, Random, play};
@@ -411,4 +412,39 @@ fn a_day_too_large_is_refused_with_what_helps() {
     assert!(matches!(error, Error::TooManyFlights { .. }));
     assert_eq!(error.code().to_string(), "V502");
     assert!(error.hint().is_some());
+}
+
+/// On `paper` the shortest flight takes half an hour and some minutes, and operations last from 6:00
+/// to 18:00.
+#[test]
+fn an_outage_that_cannot_happen_does_not_loosen_the_bound() {
+    for day in [paper_day(3), Arc::new(shipped_day("paper-quick", 3))] {
+        let with = |start: &str, end: &str| {
+            let mut day = Scenario::clone(&day).into_day();
+            let time = |text: &str| text.parse::<Time>().expect("a time");
+            let (start, end) = (time(start), time(end));
+            let outages = (0..20).map(|at| Outage { aircraft: AircraftIx::new(at), start, end });
+            day.disturbances.outages = outages.collect();
+            bound_usd(&day.check("a day with outages").expect("a day"), 60)
+        };
+        let bound = bound_usd(&day, 60);
+        for (start, end) in
+            [("06:00:00", "06:30:00"), ("05:00:00", "06:00:01"), ("18:00:01", "20:00:00")]
+        {
+            assert!((with(start, end) - bound).abs() < 1e-9, "{start} to {end}");
+        }
+        assert!(with("08:00:00", "12:00:00") > bound, "an outage that may happen loosens it");
+    }
+    // Charging takes longer than this outage.
+    let mut day = Scenario::clone(&paper_day(3)).into_day();
+    let bound = bound_usd(&paper_day(3), 60);
+    let (start, end) = (Time::from_seconds(9 * 3600), Time::from_seconds(9 * 3600 + 60));
+    day.disturbances.outages = vec![Outage { aircraft: AircraftIx::new(0), start, end }];
+    let with_short = bound_usd(&day.check("a day with an outage").expect("a day"), 60);
+    assert!((with_short - bound).abs() < 1e-9, "{with_short} and {bound}");
+}
+
+fn shipped_day(network: &str, seed: u64) -> Scenario {
+    let network = Network::find(network).expect("a shipped network");
+    network.draw(DaySeed::validation(seed).expect("a seed"))
 }
