@@ -53,6 +53,13 @@ pub enum Error {
         found: u16,
     },
 
+    /// V506 no plan in time. The search ended, by its limit of time or by Ctrl-C, before the first
+    /// policy had played the day. The day is very large, or the machine is busy.
+    ///
+    /// Fix: give more time with `--time-limit`.
+    #[error("the search ended before the first policy had played the day")]
+    NoPlanInTime,
+
     /// V504 days of another network. `bound --without-foresight NETWORK` was given a day whose
     /// take-off delays that network never draws, or a network without delays for a day that has
     /// some. Only the probabilities of delays are known beforehand, and only the network has them.
@@ -75,6 +82,7 @@ impl Coded for Error {
             Self::TooManyFlights { .. } => 502,
             Self::OtherNetwork { .. } => 504,
             Self::Levels { .. } => 505,
+            Self::NoPlanInTime => 506,
         })
     }
 
@@ -83,6 +91,7 @@ impl Coded for Error {
             Self::Core(error) => error.hint(),
             Self::TooManyFlights { .. } => Some("a longer step gives fewer possible flights"),
             Self::OtherNetwork { .. } => Some("name the network that the day was drawn from"),
+            Self::NoPlanInTime => Some("give more time with --time-limit"),
             Self::Step { .. } | Self::Levels { .. } => None,
         }
     }
@@ -94,6 +103,7 @@ impl Coded for Error {
             | Self::TooManyFlights { .. }
             | Self::OtherNetwork { .. }
             | Self::Levels { .. } => Exit::Input,
+            Self::NoPlanInTime => Exit::Failed,
         }
     }
 }

@@ -36,6 +36,7 @@
 mod bound;
 pub mod error;
 mod plan;
+mod plan_in_time;
 mod proof;
 mod proven_plan;
 mod rolling;
@@ -48,6 +49,7 @@ pub use error::Error;
 pub use plan::{
     Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, plan, steps_of_equal_work,
 };
+pub use plan_in_time::plan_in_time;
 pub use proof::Proof;
 pub use proven_plan::{ProvenPlan, plan_with_proof};
 pub use rolling::Rolling;

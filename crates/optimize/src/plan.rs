@@ -23,7 +23,7 @@ mod stand_times;
 mod start;
 mod tempo;
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use vertifleet_core::Scenario;
@@ -111,6 +111,29 @@ pub struct Plan {
     pub steps: u64,
 }
 
+/// The best plan of a search so far, for those who may not wait for its end.
+#[derive(Clone, Default)]
+pub(crate) struct BestPlan(Arc<Mutex<Option<Plan>>>);
+
+impl BestPlan {
+    /// Records the best plan so far.
+    fn record(&self, plan: &Plan) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(plan.clone());
+    }
+
+    /// The best plan so far; `None` before the first policy has played the day.
+    pub(crate) fn so_far(&self) -> Option<Plan> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
+impl From<start::PlayedDay> for Plan {
+    fn from(day: start::PlayedDay) -> Self {
+        let start::PlayedDay { policy, trace, profit_usd } = day;
+        Self { trace, profit_usd, best_policy: policy, best_policy_usd: profit_usd, steps: 0 }
+    }
+}
+
 /// The number of search steps on this day that take about as much work as `paper_steps` on a day of
 /// `paper`; at least one. A step looks at every flight from every vertiport in every slot of time.
 pub fn steps_of_equal_work(scenario: &Scenario, paper_steps: u64) -> u64 {
@@ -136,6 +159,17 @@ pub fn plan(
     more: Vec<StartingPolicy>,
     watch: &mut dyn FnMut(&SearchProgress) -> bool,
 ) -> Plan {
+    plan_known(scenario, settings, more, &BestPlan::default(), watch)
+}
+
+/// Does the same as [`plan()`], and records every better plan in `best` at once.
+pub(crate) fn plan_known(
+    scenario: &Arc<Scenario>,
+    settings: &SearchSettings,
+    more: Vec<StartingPolicy>,
+    best: &BestPlan,
+    watch: &mut dyn FnMut(&SearchProgress) -> bool,
+) -> Plan {
     let clock = Clock { budget: settings.budget, begun: Instant::now() };
     let problem = Arc::new(Problem::of(scenario));
     // Where no passenger pays for a seat, no flight earns anything.
@@ -148,7 +182,7 @@ pub fn plan(
     let mut stopped = false;
     // The time that the prices of a day take at its start. The search needs them too.
     let mut first = Duration::ZERO;
-    let start::PlayedDay { policy, trace, profit_usd } = start::best_policy(scenario, more, &mut {
+    let mut plan = start::best_policy(scenario, more, best, &mut {
         let mut day = DayTimer::begin(clock.left(), 1.0);
         let (clock, stopped, first, watch) = (&clock, &mut stopped, &mut first, &mut *watch);
         move |profit_usd, day_share: Option<f64>| {
@@ -162,8 +196,6 @@ pub fn plan(
             !*stopped && day.can_end(clock.left(), day_share)
         }
     });
-    let mut plan =
-        Plan { trace, profit_usd, best_policy: policy, best_policy_usd: profit_usd, steps: 0 };
     // Until the dives have ended, another day to begin with is worth more than improving the best
     // one so far.
     if dives && !stopped && (early.is_some() || clock.waits_for_dive()) {
@@ -178,13 +210,14 @@ pub fn plan(
         });
         if let Some(day) = day.filter(|day| day.profit_usd > plan.profit_usd) {
             (plan.trace, plan.profit_usd) = (day.trace, day.profit_usd);
+            best.record(&plan);
         }
     }
     if can_earn && !stopped && clock.left() > first {
         let first = start::schedule_of(&problem, &plan.trace);
         let dive = early.or_else(|| dives.then(begin_dive));
         let searches = Searches::begin(scenario, settings, &problem, &first, dive);
-        searches.improve(&clock, &mut plan, watch);
+        searches.improve(&clock, &mut plan, best, watch);
     }
     plan
 }

@@ -7,7 +7,9 @@ use std::time::Instant;
 use vertifleet_core::{Scenario, Stop};
 
 use crate::Bound;
-use crate::plan::{Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, plan};
+use crate::plan::{
+    BestPlan, Budget, Plan, SearchProgress, SearchSettings, StartingPolicy, plan_known,
+};
 use crate::proof::{POLL_INTERVAL, Proof};
 
 /// Where policies play their days alone, the proof begins at this share of the time at the latest.
@@ -37,10 +39,24 @@ pub fn plan_with_proof(
     stop: &Stop,
     watch: &mut dyn FnMut(&SearchProgress, Option<&Bound>),
 ) -> ProvenPlan {
+    let best = BestPlan::default();
+    prove_and_plan(scenario, settings, starts, (gap, stop, &best), &mut |progress, bound| {
+        watch(progress, bound.map(|bound| &**bound));
+    })
+}
+
+/// Does the same as [`plan_with_proof`], and offers every better plan to `best` at once.
+pub(crate) fn prove_and_plan(
+    scenario: &Arc<Scenario>,
+    settings: &SearchSettings,
+    starts: Vec<StartingPolicy>,
+    (gap, stop, best): (Option<f64>, &Stop, &BestPlan),
+    watch: &mut dyn FnMut(&SearchProgress, Option<&Arc<Bound>>),
+) -> ProvenPlan {
     let begun = Instant::now();
     let mut late = None;
     let early = (!settings.budget.leaves_policies_alone()).then(|| Proof::begin(scenario));
-    let plan = plan(scenario, settings, starts, &mut |progress| {
+    let plan = plan_known(scenario, settings, starts, best, &mut |progress| {
         let profit_usd = progress.profit_usd;
         let is_due = progress.steps > 0 || progress.share > LATEST_PROOF;
         let Some(proof) = early
@@ -52,7 +68,7 @@ pub fn plan_with_proof(
         };
         proof.record_profit(profit_usd);
         let bound = proof.best();
-        watch(progress, bound.as_deref());
+        watch(progress, bound.as_ref());
         let is_good_enough = bound.is_some_and(|bound| {
             bound.is_reached_by(profit_usd) || gap.is_some_and(|gap| bound.gap(profit_usd) <= gap)
         });

@@ -8,7 +8,7 @@ use std::time::Instant;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use vertifleet_core::{Outputs, Scenario};
-use vertifleet_optimize::{Bound, Budget, Plan, ProvenPlan, SearchSettings, plan_with_proof};
+use vertifleet_optimize::{Bound, Budget, Plan, ProvenPlan, SearchSettings, plan_in_time};
 use vertifleet_progress::SearchBar;
 use vertifleet_sim::Trace;
 use vertifleet_study::starting_policies;
@@ -36,9 +36,9 @@ pub(crate) fn run(arguments: &PlanArguments) -> Result<ExitCode, Failure> {
     let mut bar = SearchBar::new("% of the time", Some(arguments.time_limit));
     let starts = starting_policies(&scenario);
     let ProvenPlan { plan, bound } =
-        plan_with_proof(&scenario, &settings, starts, arguments.gap, &stop, &mut |now, bound| {
+        plan_in_time(&scenario, &settings, starts, arguments.gap, &stop, &mut |now, bound| {
             bar.show(now, bound);
-        });
+        })?;
     drop(bar);
     let (bound, seconds) = (bound.as_ref(), begun.elapsed().as_secs_f64());
     plan.trace.write(&scenario, &arguments.output)?;

@@ -210,6 +210,7 @@ mod tests {
     use vertifleet_core::{DaySeed, Network, Scenario, Time};
 
     use super::Search;
+    use crate::plan::BestPlan;
     use crate::plan::guiding_prices::GuidingPrices;
     use crate::plan::problem::Problem;
     use crate::plan::start;
@@ -236,7 +237,7 @@ mod tests {
     fn account_is_the_simulators(day: &Arc<Scenario>) {
         let problem = Problem::of(day);
         let prices = GuidingPrices::of_policies(day, &problem.day);
-        let start = start::best_policy(day, Vec::new(), &mut |_, _| true);
+        let start = start::best_policy(day, Vec::new(), &BestPlan::default(), &mut |_, _| true);
         let mut search = Search::new(&problem, start::schedule_of(&problem, &start.trace), 3);
         for step in 0..300 {
             // The temperature alternates between hot and cold, so that steps are kept as well as

@@ -12,7 +12,7 @@ use super::guiding_prices::GuidingPrices;
 use super::problem::Problem;
 use super::schedule::Schedule;
 use super::search::Search;
-use super::{Clock, Plan, SearchProgress, SearchSettings, start};
+use super::{BestPlan, Clock, Plan, SearchProgress, SearchSettings, start};
 use crate::proof::POLL_INTERVAL;
 
 /// Rounds after which the search with the worst schedule continues from the best one's.
@@ -65,6 +65,7 @@ impl<'a> Searches<'a> {
         mut self,
         clock: &Clock,
         plan: &mut Plan,
+        best: &BestPlan,
         watch: &mut dyn FnMut(&SearchProgress) -> bool,
     ) {
         loop {
@@ -78,7 +79,7 @@ impl<'a> Searches<'a> {
             if !is_waiting {
                 plan.steps += self.round(clock, plan.steps);
             }
-            self.keep_best(plan);
+            self.keep_best(plan, best);
             if !is_waiting && self.rounds.is_multiple_of(ROUNDS_A_MEETING) {
                 self.meet();
             }
@@ -138,7 +139,7 @@ impl<'a> Searches<'a> {
     }
 
     /// Plays the best schedule of all searches and keeps it if it earns more than the plan so far.
-    fn keep_best(&self, plan: &mut Plan) {
+    fn keep_best(&self, plan: &mut Plan, known: &BestPlan) {
         let schedules = self.all.iter().map(|search| &search.best);
         let best = schedules
             .max_by(|one, other| one.value_usd().total_cmp(&other.value_usd()))
@@ -147,6 +148,7 @@ impl<'a> Searches<'a> {
             let (trace, profit_usd) = start::flown(self.scenario, best);
             if profit_usd > plan.profit_usd {
                 (plan.trace, plan.profit_usd) = (trace, profit_usd);
+                known.record(plan);
             }
         }
     }

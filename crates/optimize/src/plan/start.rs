@@ -10,6 +10,7 @@ use vertifleet_sim::{Simulation, Trace};
 
 use super::problem::Problem;
 use super::schedule::{Flight, Schedule};
+use super::{BestPlan, Plan};
 use crate::Rolling;
 
 /// A policy whose day a plan may start from.
@@ -91,9 +92,11 @@ const ANSWERS: &str = "these policies always answer, and from the mask";
 pub(super) fn best_policy(
     scenario: &Arc<Scenario>,
     more: Vec<StartingPolicy>,
+    known: &BestPlan,
     go_on: &mut dyn FnMut(f64, Option<f64>) -> bool,
-) -> PlayedDay {
-    let mut best = Begun::by(&mut Greedy, scenario, &mut |_| true).finished("greedy");
+) -> Plan {
+    let mut best = Plan::from(Begun::by(&mut Greedy, scenario, &mut |_| true).finished("greedy"));
+    known.record(&best);
     if !go_on(best.profit_usd, None) {
         return best;
     }
@@ -103,7 +106,7 @@ pub(super) fn best_policy(
     let priced = Begun::by(&mut BidPricePolicy::default(), scenario, &mut |_| {
         go_on(best.profit_usd, Some(1.0))
     });
-    best = better(best, priced.finished("prices"));
+    best = better(best, priced.finished("prices"), known);
     let others = [
         StartingPolicy::new("random", Box::new(Random::new(0))),
         StartingPolicy::new("rolling", Box::<Rolling>::default()),
@@ -116,7 +119,7 @@ pub(super) fn best_policy(
             go_on(best.profit_usd, Some((taken as f64 / decisions).min(1.0)))
         });
         if let Some(day) = day.whole(&name) {
-            best = better(best, day);
+            best = better(best, day, known);
         }
     }
     best
@@ -131,9 +134,14 @@ pub(super) fn rolled_thoroughly(
     Begun::by(&mut Rolling::thorough(), scenario, go_on).whole("rolling")
 }
 
-/// The day that earns more; of equals, the first.
-fn better(one: PlayedDay, other: PlayedDay) -> PlayedDay {
-    if other.profit_usd > one.profit_usd { other } else { one }
+/// The day that earns more; of equals, the first. A better day is recorded.
+fn better(one: Plan, other: PlayedDay, known: &BestPlan) -> Plan {
+    if other.profit_usd <= one.profit_usd {
+        return one;
+    }
+    let better = Plan::from(other);
+    known.record(&better);
+    better
 }
 
 /// The flights of a whole day's trace.

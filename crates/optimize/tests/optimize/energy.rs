@@ -9,7 +9,7 @@ use vertifleet_optimize::{Budget, Plan, Rolling, SearchSettings, Step, plan, upp
 use vertifleet_policy::{BidPricePolicy, Greedy, Policy, Random, play};
 use vertifleet_sim::Simulation;
 use vertifleet_sim::check::check;
-use vertifleet_testkit::{Size, any_energy_day};
+use vertifleet_testkit::{Size, any_energy_day, any_extreme_energy_day};
 
 use crate::exhaustive::best_of_all;
 
@@ -40,6 +40,23 @@ fn no_sequence_of_decisions_of_a_tiny_day_earns_more_than_its_bound() {
         true
     });
     assert!(compared.count() >= 60, "enough days have few sequences");
+}
+
+/// Curves with neighbouring numbers for charges, the least and the greatest batteries and powers.
+#[test]
+fn extreme_curves_are_played_planned_and_bounded() {
+    (0..60_u32).into_par_iter().for_each(|number| {
+        let day = any_extreme_energy_day(number.into(), Size { vertiports: 4, fleet: 5, hours: 4 });
+        let bound = bound_usd(&day, 30);
+        let found = planned(&day, 40);
+        assert!(check(&day, &found.trace).is_valid(), "day {number}");
+        assert!(bound >= found.profit_usd - 1e-6, "day {number}: bound {bound}, {found:?}");
+        for policy in [&mut BidPricePolicy::default() as &mut dyn Policy, &mut Rolling::default()] {
+            let mut simulation = Simulation::new(Arc::clone(&day));
+            play(&mut simulation, policy, |_| ()).expect("these policies always answer");
+            assert!(bound >= simulation.ledger().profit_usd() - 1e-6, "day {number}");
+        }
+    });
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! Properties of the planner, on small days of every kind and on days of the `paper` network.
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::exhaustive::best_of_all;
 use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
-use vertifleet_core::{Matrix, Scenario, VertiportIx};
-use vertifleet_optimize::{Budget, Plan, SearchSettings, StartingPolicy, plan};
+use vertifleet_core::{Matrix, Scenario, Stop, VertiportIx};
+use vertifleet_optimize::{Budget, Plan, SearchSettings, StartingPolicy, plan, plan_in_time};
 use vertifleet_policy::{BidPricePolicy, Greedy, Policy, PolicyError, Random, Replay, play};
 use vertifleet_sim::{Decision, Simulation, View, check::check};
 use vertifleet_testkit::{Size, any_day, any_extended_day, paper_day};
@@ -190,6 +190,46 @@ impl Policy for NotInTime {
     fn choose(&mut self, _: &Decision, _: &View<'_>) -> Result<VertiportIx, PolicyError> {
         panic!("there is no time for it")
     }
+}
+
+/// A policy that never answers.
+struct NeverAnswers;
+
+impl Policy for NeverAnswers {
+    fn choose(&mut self, _: &Decision, _: &View<'_>) -> Result<VertiportIx, PolicyError> {
+        loop {
+            std::thread::sleep(Duration::from_mins(1));
+        }
+    }
+}
+
+#[test]
+fn a_plan_is_there_at_its_limit_and_at_a_stop_though_a_policy_never_answers() {
+    let day = paper_day(6);
+    let begin = |limit_s: u64, stop: &Stop| {
+        let budget = Budget::Time(Duration::from_secs(limit_s));
+        let settings = SearchSettings { budget, searches: 1, seed: 1 };
+        let starts = vec![StartingPolicy::new("never", Box::new(NeverAnswers))];
+        let begun = Instant::now();
+        let found = plan_in_time(&day, &settings, starts, None, stop, &mut |_, _| {});
+        (found.expect("greedy has played").plan, begun.elapsed())
+    };
+    let (plan, took) = begin(1, &Stop::default());
+    assert!(took < Duration::from_secs(5), "{took:?}");
+    assert!(check(&day, &plan.trace).is_valid());
+    let mut simulation = Simulation::new(Arc::clone(&day));
+    play(&mut simulation, &mut Greedy, |_| ()).expect("greedy always answers");
+    assert!(plan.profit_usd >= simulation.ledger().profit_usd());
+
+    let stop = Stop::default();
+    let raised = stop.clone();
+    std::thread::spawn(move || {
+        std::thread::sleep(Duration::from_secs(2));
+        raised.request();
+    });
+    let (stopped, took) = begin(600, &stop);
+    assert!(took < Duration::from_secs(10), "{took:?}");
+    assert!(check(&day, &stopped.trace).is_valid());
 }
 
 #[test]
