@@ -43,12 +43,17 @@ pub fn explanation<'a>(explanation: &Explanation, replayed: &'a [ReplayedDay]) -
     }
 }
 
+/// Printed for a difference of two bounds that their searches cannot resolve.
+const WITHIN_ERROR: &str = "within its error";
+
 /// The value of changes after their cost.
 fn worth(explanation: &Explanation) -> Table {
     let by_policy = format!("{} after cost, $", explanation.account.policy);
     let columns = ["change", "cost, $", &by_policy, "bound after cost, $"];
     Table::new(columns).with_rows(explanation.worth.iter().map(|one| {
         let policy = one.policy_usd.map_or_else(|| NONE.to_owned(), |usd| signed(usd, 0));
-        vec![one.change.clone(), grouped(one.cost_usd, 0), policy, signed(one.bound_usd, 0)]
+        let by_bound =
+            if one.is_within_error { WITHIN_ERROR.to_owned() } else { signed(one.bound_usd, 0) };
+        vec![one.change.clone(), grouped(one.cost_usd, 0), policy, by_bound]
     }))
 }

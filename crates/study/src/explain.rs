@@ -82,11 +82,15 @@ pub fn explain(
     let solved = changes.into_par_iter().map(solve).collect::<Result<Vec<_>, Error>>()?;
     let bounds = solved.iter().map(|(change, _, bounded)| (change, bounded));
     let proven = Proven::of(scenario, &bound, bounds)?;
-    let worth = solved.iter().map(|(change, policy_usd, bounded)| Worth {
-        change: change.words.clone(),
-        cost_usd: change.cost_usd,
-        policy_usd: *policy_usd,
-        bound_usd: proven.rise_usd(change, bounded),
+    let worth = solved.iter().map(|(change, policy_usd, bounded)| {
+        let rise = proven.rise(change, bounded);
+        Worth {
+            change: change.words.clone(),
+            cost_usd: change.cost_usd,
+            policy_usd: *policy_usd,
+            bound_usd: rise.usd,
+            is_within_error: rise.is_within_error,
+        }
     });
     Ok(Explanation {
         format: FORMAT,

@@ -103,8 +103,54 @@ fn a_worth_is_the_difference_of_two_days_that_were_solved() {
     let (_, totals) = greedy().play("greedy", &changed, &Stop::default()).expect("a whole day");
     assert_eq!(seat.policy_usd, Some(totals.profit_usd - found.account.totals.profit_usd));
     let bound = upper_bound(&changed, Step::from_minutes(60).expect("a step")).expect("a bound");
-    assert_eq!(seat.bound_usd, bound.upper_bound_usd() - found.upper_bound_usd);
-    assert!(seat.bound_usd > 5_000.0, "a fifth seat is worth much where flights are full");
+    let own = upper_bound(&day("paper"), Step::from_minutes(60).expect("a step")).expect("a bound");
+    assert_eq!(seat.bound_usd, bound.upper_bound_usd() - own.upper_bound_usd());
+    assert!(
+        !seat.is_within_error && seat.bound_usd > 5_000.0,
+        "a fifth seat is worth much where flights are full"
+    );
+}
+
+/// With a passenger a day for each pair, every seat but one stays empty.
+#[test]
+fn what_nothing_can_be_gained_by_is_within_the_error_of_the_bound() {
+    for network in ["paper", "paper-quick"] {
+        let mut idle = vertifleet_core::Scenario::clone(&day(network)).into_day();
+        for table in &mut idle.demand {
+            table.cells_mut().iter_mut().for_each(|passengers| *passengers = (*passengers).min(1));
+        }
+        let idle = Arc::new(idle.check("a day with few passengers").expect("a day"));
+        let step = Step::from_minutes(60).expect("a step");
+        let found = explain(&idle, "greedy", &greedy(), step, &Stop::default(), &|_| ());
+        let found = found.expect("a day");
+        let seat = found.worth.iter().find(|one| one.change.contains("seat")).expect("a seat");
+        assert!(seat.is_within_error && seat.bound_usd >= 0.0, "{network}: {seat:?}");
+        assert!(text(&found).contains("within its error"), "{network}");
+    }
+}
+
+/// What other searches gain on the day as it is does not count for a change.
+#[test]
+fn bounds_of_one_search_each_are_compared() {
+    let step = Step::from_minutes(60).expect("a step").with_levels(16).expect("levels");
+    let day = day("paper-quick");
+    let found = explain(&day, "greedy", &greedy(), step, &Stop::default(), &|_| ());
+    let found = found.expect("a day");
+    let searched = |day: &vertifleet_core::Scenario| {
+        upper_bound(day, step).expect("a bound").upper_bound_usd()
+    };
+    let own_usd = searched(&day);
+    let worth = |words: &str| {
+        found.worth.iter().find(|one| one.change.contains(words)).expect("a change").bound_usd
+    };
+    let mut changed = vertifleet_core::Scenario::clone(&day).into_day();
+    changed.aircraft_types[0].battery_kwh += 10.0;
+    let changed = changed.check("a changed day").expect("a day");
+    assert_eq!(worth("10 kWh more"), searched(&changed) - own_usd);
+    let mut changed = vertifleet_core::Scenario::clone(&day).into_day();
+    changed.operations.takeoff_s -= 60;
+    let changed = changed.check("a changed day").expect("a day");
+    assert_eq!(worth("a minute less"), searched(&changed) - own_usd);
 }
 
 #[test]

@@ -19,13 +19,20 @@
 //!   is at most what an aircraft of its type earns from the best start
 //!   ([`DesignBound`](vertifleet_optimize::DesignBound)).
 //! - *One more seat* can only raise V. So the changed day's bound is also one of the day as it is.
-//! - *A minute less for a take-off* proves nothing for the day as it is: aircraft are ready at
-//!   other seconds, and what was decided at the old ones need not be possible.
+//! - *A minute less for a take-off*, *more energy* and *more power* prove nothing for the day as it
+//!   is: aircraft are ready at other seconds, and what was decided at the old ones need not be
+//!   possible.
 //!
 //! The least of what is proven for the day as it is, is its bound here. A day with one more stand
 //! has the least of what all these prices prove for it. Every difference is then at least less the
 //! cost, because no price is below 0, and at most the shadow price less the cost, because the
 //! prices of the day's own bound are among them.
+//!
+//! No other prices prove anything for a day with more seats, energy or power, or with shorter
+//! take-offs. Its bound is what its own search found, so it is compared with what the day's own
+//! search found: a bound that other searches have lowered would make the change look worth as much
+//! as they gained. That amount is the known error of a search, within which a difference has no
+//! meaning.
 
 use vertifleet_core::{Scenario, VertiportIx};
 use vertifleet_optimize::{Bound, DesignBound};
@@ -35,6 +42,18 @@ use crate::error::Error;
 
 /// More than the errors of the few sums below, dollars.
 const ROUNDING_USD: f64 = 1e-6;
+
+/// A search ends when it expects to lower the bound by less than about this share.
+const SEARCH_ERROR: f64 = 1e-5;
+
+/// By how much the bound of a changed day is higher.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rise {
+    /// After what the change costs, dollars.
+    pub(super) usd: f64,
+    /// Whether that is no more than the known error of a search.
+    pub(super) is_within_error: bool,
+}
 
 /// Prices, and the bound that they prove for the day as it is.
 struct Prices<'a> {
@@ -91,9 +110,9 @@ impl<'a> Proven<'a> {
         self.all[self.best].bound
     }
 
-    /// By how much the bound of a changed day is higher, after what the change costs. `bound` was
-    /// searched for on the changed day.
-    pub(super) fn rise_usd(&self, change: &Change, bound: &Bound) -> f64 {
+    /// By how much the bound of a changed day is higher. `bound` was searched for on the changed
+    /// day.
+    pub(super) fn rise(&self, change: &Change, bound: &Bound) -> Rise {
         let changed_usd = match change.effect {
             Effect::Stand(at) => {
                 let proven =
@@ -105,11 +124,21 @@ impl<'a> Proven<'a> {
                 let proven = self.upper_bound_usd() + most_usd - change.cost_usd + ROUNDING_USD;
                 bound.upper_bound_usd().min(proven)
             }
-            Effect::Seat | Effect::TakeOff | Effect::Battery | Effect::Power => {
-                bound.upper_bound_usd()
+            Effect::Seat => return self.rise_of_searches(bound, 0.0),
+            Effect::TakeOff | Effect::Battery | Effect::Power => {
+                return self.rise_of_searches(bound, f64::NEG_INFINITY);
             }
         };
-        changed_usd - self.upper_bound_usd()
+        Rise { usd: changed_usd - self.upper_bound_usd(), is_within_error: false }
+    }
+
+    /// The rise from what the day's own search found to what that of the changed day did, of which
+    /// it is known that it is at least `least_usd`.
+    fn rise_of_searches(&self, bound: &Bound, least_usd: f64) -> Rise {
+        let own_usd = self.all[0].upper_bound_usd;
+        let usd = (bound.upper_bound_usd() - own_usd).max(least_usd);
+        let error_usd = (own_usd - self.upper_bound_usd()).max(SEARCH_ERROR * own_usd.abs());
+        Rise { usd, is_within_error: usd.abs() <= error_usd }
     }
 }
 

@@ -26,6 +26,9 @@ pub struct Worth {
     pub policy_usd: Option<f64>,
     /// By how much the upper bound is higher on the changed day, after this cost, dollars.
     pub bound_usd: f64,
+    /// Whether `bound_usd` is within the error of the bound, so that the change may be worth
+    /// nothing.
+    pub is_within_error: bool,
 }
 
 /// What a change adds to the day.
