@@ -24,9 +24,20 @@ const TWO: NonZeroU32 = NonZeroU32::new(2).unwrap();
 /// The scheme before a token, in upper or lower case (RFC 9110).
 const SCHEME: &str = "Bearer ";
 
-/// The sender of a request, by the name of the token; empty without tokens.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Actor(pub(crate) String);
+/// The sender of a request.
+#[derive(Debug, Clone)]
+pub(crate) struct Actor {
+    /// The name of the token; empty without tokens.
+    pub(crate) name: String,
+    /// The role of the token; without tokens, everything is permitted.
+    pub(crate) role: Role,
+}
+
+impl Default for Actor {
+    fn default() -> Self {
+        Self { name: String::new(), role: Role::Admin }
+    }
+}
 
 /// Tokens as they were last read.
 #[derive(Debug, Clone)]
@@ -113,7 +124,7 @@ impl Access {
         }
         let token = token.ok_or(Error::NoToken)?;
         token.check(needed)?;
-        Ok(Actor(token.name.clone()))
+        Ok(Actor { name: token.name.clone(), role: token.role })
     }
 
     /// The token of a request that permits it; `None` if no token has ever been made.

@@ -12,6 +12,7 @@ use tokio::sync::{OnceCell, oneshot};
 use vertifleet_core::Scenario;
 
 pub(crate) use self::reading::replay;
+use crate::access::Actor;
 use crate::clock::now_ms;
 use crate::committer::{Append, Committer};
 use crate::day_cell::DayCell;
@@ -34,8 +35,8 @@ const TRIES: u32 = 5;
 /// The sender of a write, and its conditions.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Writer {
-    /// The name of the token, or empty.
-    pub(crate) actor: String,
+    /// The sender.
+    pub(crate) actor: Actor,
     /// The number of the event that the day must be at.
     pub(crate) if_match: Option<u64>,
     /// The request with its key, if it has one.
@@ -251,7 +252,7 @@ impl Days {
                 return Err(Error::TooMuch { what: "events on a day", most: self.most_events });
             }
             // Applied in memory, so that the next events can be checked at once.
-            let events = take_all(&mut state, events, &writer.actor)?;
+            let events = take_all(&mut state, events, &writer.actor.name)?;
             let answer = answer(&events);
             let Writer { idempotency, busy, .. } = writer;
             let kept = idempotency.map(|asked| asked.answered_with(&answer));

@@ -2,6 +2,7 @@
 //! alternative, and the reasons why some are infeasible.
 
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
@@ -16,6 +17,7 @@ use crate::error::Error;
 use crate::moment::Moment;
 use crate::policies::Policies;
 use crate::renewals::{Renewals, Renewing};
+use crate::turns::Key;
 
 /// A policy's proposal for an aircraft.
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -112,12 +114,48 @@ pub(crate) enum RuleName {
     ChargedTooLate,
 }
 
-/// A policy that decides on a day; its evaluations are serialised.
-type Shared = Arc<tokio::sync::Mutex<Decider>>;
+/// A policy that decides on a day, shared by all requests.
+pub(crate) struct SharedDecider {
+    decider: Mutex<Decider>,
+    has_decided: AtomicBool,
+}
+
+impl SharedDecider {
+    /// Whether it has not decided on the day yet.
+    pub(crate) fn is_new(&self) -> bool {
+        !self.has_decided.load(Ordering::Acquire)
+    }
+
+    /// The key of its turns: its evaluations are serialised, and requests wait for their turn
+    /// without a lock, so that a dispatcher does not wait for readers who came first.
+    pub(crate) fn key(&self) -> Key {
+        std::ptr::from_ref(self).addr()
+    }
+
+    /// Proposes a decision by [`Decider::propose`].
+    ///
+    /// # Errors
+    /// Returns the errors of [`Decider::propose`].
+    pub(crate) fn propose<'day>(
+        &self,
+        state: impl FnOnce() -> MutexGuard<'day, DispatchDay>,
+        aircraft: &str,
+        time: Option<Time>,
+        policy: &str,
+        busy: Option<&Renewals>,
+    ) -> Result<Proposal, Error> {
+        let mut decider = self.decider.lock().unwrap_or_else(PoisonError::into_inner);
+        let proposal = decider.propose(state(), aircraft, time, policy, busy);
+        if decider.room.is_some() {
+            self.has_decided.store(true, Ordering::Release);
+        }
+        proposal
+    }
+}
 
 /// The policies that decide on a day, each with its state for the day.
 #[derive(Default)]
-pub(crate) struct Deciders(Mutex<HashMap<String, Shared>>);
+pub(crate) struct Deciders(Mutex<HashMap<String, Arc<SharedDecider>>>);
 
 /// A policy with its state.
 pub(crate) struct Decider {
@@ -141,7 +179,7 @@ impl Deciders {
         name: &str,
         day: &Scenario,
         policies: &Policies,
-    ) -> Result<Shared, Error> {
+    ) -> Result<Arc<SharedDecider>, Error> {
         if let Some(decider) = self.lock().get(name) {
             return Ok(Arc::clone(decider));
         }
@@ -161,29 +199,29 @@ impl Deciders {
             renewing: Renewing::default(),
         };
         // Another request may have added it in the meantime.
-        let decider =
-            deciders.entry(name.to_owned()).or_insert_with(|| Shared::new(decider.into()));
+        let decider = deciders.entry(name.to_owned()).or_insert_with(|| Arc::new(decider.into()));
         Ok(Arc::clone(decider))
     }
 
-    fn lock(&self) -> MutexGuard<'_, HashMap<String, Shared>> {
+    fn lock(&self) -> MutexGuard<'_, HashMap<String, Arc<SharedDecider>>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl Decider {
-    /// Whether it has not decided on the day yet.
-    pub(crate) fn is_new(&self) -> bool {
-        self.room.is_none()
+impl From<Decider> for SharedDecider {
+    fn from(decider: Decider) -> Self {
+        Self { decider: Mutex::new(decider), has_decided: AtomicBool::new(false) }
     }
+}
 
+impl Decider {
     /// Proposes a decision for an aircraft that is ready. If the service is `busy`, prices that are
     /// a quarter of an hour old are recomputed in the background.
     ///
     /// # Errors
     /// Returns [`Error::UnknownId`] if there is no such aircraft, and [`Error::ReportError`] if it
     /// cannot decide now.
-    pub(crate) fn propose(
+    fn propose(
         &mut self,
         mut state: MutexGuard<'_, DispatchDay>,
         aircraft: &str,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use tokio::sync::{Semaphore, watch};
+use tokio::sync::watch;
 
 use crate::access::Access;
 use crate::days::Days;
@@ -18,6 +18,7 @@ use crate::turns::Turns;
 
 /// Largest number of large bodies that are read at once.
 const UPLOADS: usize = 4;
+
 /// The running service.
 pub(crate) struct Service {
     /// Its days.
@@ -31,7 +32,7 @@ pub(crate) struct Service {
     /// Its limits.
     pub(crate) limits: Limits,
     /// Turns for large bodies, which take memory while they are read.
-    pub(crate) uploads: Semaphore,
+    pub(crate) uploads: Turns,
     /// Makes the spans of requests, if a collector wants them.
     pub(crate) spans: Option<Arc<Spans>>,
     /// The keys of requests.
@@ -44,8 +45,8 @@ pub(crate) struct Service {
     pub(crate) renewals: Arc<Renewals>,
 }
 
-/// Turns for computations. Each kind has one turn for each core: more would only make all of them
-/// late.
+/// Turns for computations. Each kind has one turn for each core, and one more that neither a single
+/// token nor the readers together can take from others.
 #[derive(Debug)]
 pub(crate) struct AllTurns {
     /// For outlooks and what-ifs, which take long.
@@ -68,7 +69,7 @@ impl Service {
     /// Returns [`Error::Store`] if the store cannot be read.
     pub(crate) async fn new(store: Store, limits: Limits) -> Result<Self, Error> {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let turns = || Turns::new(cores);
+        let turns = || Turns::new(cores + 1);
         let turns = AllTurns {
             outlooks: turns(),
             readings: turns(),
@@ -82,7 +83,7 @@ impl Service {
         let policies = Policies::new(days.store.clone());
         let used = days.store.keys().await?;
         let keys = Keys::new(used.as_deref());
-        let uploads = Semaphore::new(UPLOADS);
+        let uploads = Turns::new(UPLOADS);
         let studies = Studies::default();
         let renewals = Arc::new(Renewals::start());
         Ok(Self {

@@ -1,47 +1,65 @@
-//! Turns for computations that take long. Only a few run at once. The next turn goes to the token
-//! with the fewest running computations, and among equal ones to the earliest request. So a token
-//! with many requests delays itself and not others.
+//! Turns for computations that take long, and for large bodies. Only a few run at once.
+//!
+//! The next turn goes to a token that may dispatch before one that may only read, then to the token
+//! with the fewest running computations, and among equal ones to the earliest request. No token has
+//! all turns, and those that may only read leave one to others. So a token with many requests delays
+//! itself and not others.
 
-use std::collections::HashMap;
+use std::cmp::Reverse;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use tokio::runtime::Handle;
 use tokio::sync::oneshot;
 use vertifleet_core::Stop;
 
+use crate::access::Actor;
 use crate::error::Error;
+use crate::tokens::Role;
 
 /// Turns of one kind.
 #[derive(Debug, Clone)]
 pub(crate) struct Turns(Arc<Mutex<State>>);
 
+/// An object that only one computation uses at a time.
+pub(crate) type Key = usize;
+
 #[derive(Debug)]
 struct State {
-    /// Free turns.
-    free: usize,
-    /// The number of turns that each token has.
-    running: HashMap<String, usize>,
+    /// The number of turns.
+    all: usize,
+    running: Vec<Running>,
     /// In the order of arrival.
     waiting: Vec<Waiting>,
+    /// The number of turns that were given so far.
+    given: u64,
+}
+
+#[derive(Debug)]
+struct Running {
+    number: u64,
+    actor: Actor,
+    key: Option<Key>,
 }
 
 #[derive(Debug)]
 struct Waiting {
-    actor: String,
+    actor: Actor,
+    key: Option<Key>,
     turn: oneshot::Sender<Turn>,
 }
 
 /// A turn, which ends when this is dropped.
 #[derive(Debug)]
-struct Turn {
+pub(crate) struct Turn {
     turns: Turns,
-    actor: String,
+    number: u64,
 }
 
 impl Turns {
-    /// Turns of which at most `turns` run at once.
-    pub(crate) fn new(turns: usize) -> Self {
-        let state = State { free: turns, running: HashMap::new(), waiting: Vec::new() };
+    /// Turns of which at most `all` run at once; at least three, so that one remains besides those
+    /// of a token and of readers.
+    pub(crate) fn new(all: usize) -> Self {
+        let state = State { all: all.max(3), running: Vec::new(), waiting: Vec::new(), given: 0 };
         Self(Arc::new(Mutex::new(state)))
     }
 
@@ -50,15 +68,17 @@ impl Turns {
         self.state().waiting.iter().any(|waiting| !waiting.turn.is_closed())
     }
 
-    /// Runs work on a blocking thread when it is the token's turn. The work is asked to stop when
+    /// Runs work on a blocking thread when it is the token's turn, and no other work with the key
+    /// runs. The work is asked to stop when
     /// the caller drops this future, because the client has disconnected or the request has timed
     /// out.
     pub(crate) async fn work<T: Send + 'static>(
         &self,
-        actor: &str,
+        actor: &Actor,
+        key: Option<Key>,
         work: impl FnOnce(&Stop) -> Result<T, Error> + Send + 'static,
     ) -> Result<T, Error> {
-        let turn = self.take(actor).await;
+        let turn = self.take(actor, key).await;
         let stop = Stop::default();
         let waits = StopWhenDropped(stop.clone());
         // The turn lasts as long as the work, even after the future is dropped.
@@ -77,7 +97,7 @@ impl Turns {
     /// that other requests continue. It ends when the caller drops this future.
     pub(crate) async fn run<T: Send + 'static>(
         &self,
-        actor: &str,
+        actor: &Actor,
         future: impl Future<Output = Result<T, Error>> + Send + 'static,
     ) -> Result<T, Error> {
         let runtime = Handle::current();
@@ -88,29 +108,31 @@ impl Turns {
                 _ = gone => Err(Error::Internal { cause: "the client has gone".to_owned() }),
             }
         };
-        let outcome = self.work(actor, move |_| runtime.block_on(until_gone)).await;
+        let outcome = self.work(actor, None, move |_| runtime.block_on(until_gone)).await;
         drop(waits);
         outcome
     }
 
     /// Waits for a turn.
-    async fn take(&self, actor: &str) -> Turn {
-        let wait = {
-            let mut state = self.state();
-            if state.free > 0 {
-                state.free -= 1;
-                return self.turn(&mut state, actor);
-            }
-            let (turn, wait) = oneshot::channel();
-            state.waiting.push(Waiting { actor: actor.to_owned(), turn });
-            wait
-        };
+    pub(crate) async fn take(&self, actor: &Actor, key: Option<Key>) -> Turn {
+        let (turn, wait) = oneshot::channel();
+        self.state().waiting.push(Waiting { actor: actor.clone(), key, turn });
+        self.give();
         wait.await.expect("a turn is passed on when it ends")
     }
 
-    fn turn(&self, state: &mut State, actor: &str) -> Turn {
-        *state.running.entry(actor.to_owned()).or_default() += 1;
-        Turn { turns: self.clone(), actor: actor.to_owned() }
+    /// Gives the free turns to those who wait.
+    fn give(&self) {
+        loop {
+            let mut state = self.state();
+            let Some(Waiting { actor, key, turn }) = state.next() else { return };
+            let number = state.given;
+            state.given += 1;
+            state.running.push(Running { number, actor, key });
+            drop(state);
+            // A turn that is not taken is dropped here, and passed on.
+            drop(turn.send(Turn { turns: self.clone(), number }));
+        }
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
@@ -119,32 +141,44 @@ impl Turns {
 }
 
 impl State {
-    /// Removes the next request, among those whose caller still waits.
+    /// Removes the next request that may run, among those whose caller still waits.
     fn next(&mut self) -> Option<Waiting> {
         self.waiting.retain(|waiting| !waiting.turn.is_closed());
-        let running = |waiting: &Waiting| self.running.get(&waiting.actor).copied();
-        let next = self.waiting.iter().enumerate().min_by_key(|(_, waiting)| running(waiting));
+        let may_run = |(_, waiting): &(usize, &Waiting)| self.may_run(&waiting.actor, waiting.key);
+        let rank = |(_, Waiting { actor, .. }): &(usize, &Waiting)| {
+            (Reverse(actor.role > Role::Read), self.running_of(actor))
+        };
+        let next = self.waiting.iter().enumerate().filter(may_run).min_by_key(rank);
         next.map(|(at, _)| at).map(|at| self.waiting.remove(at))
+    }
+
+    fn running_of(&self, actor: &Actor) -> usize {
+        self.running.iter().filter(|running| running.actor.name == actor.name).count()
+    }
+
+    /// Whether a request may run now.
+    fn may_run(&self, actor: &Actor, key: Option<Key>) -> bool {
+        let is_free = self.running.len() < self.all;
+        if !is_free || key.is_some() && self.running.iter().any(|running| running.key == key) {
+            return false;
+        }
+        // Without tokens, all requests have the same name.
+        if actor.name.is_empty() {
+            return true;
+        }
+        let own = self.running_of(actor);
+        if actor.role > Role::Read {
+            return own < self.all - 1;
+        }
+        let reads = |running: &&Running| running.actor.role == Role::Read;
+        own < self.all - 2 && self.running.iter().filter(reads).count() < self.all - 1
     }
 }
 
 impl Drop for Turn {
     fn drop(&mut self) {
-        let mut state = self.turns.state();
-        if let Some(running) = state.running.get_mut(&self.actor) {
-            *running -= 1;
-            if *running == 0 {
-                state.running.remove(&self.actor);
-            }
-        }
-        let Some(next) = state.next() else {
-            state.free += 1;
-            return;
-        };
-        let turn = self.turns.turn(&mut state, &next.actor);
-        drop(state);
-        // A turn that is not taken is dropped here, and passed on.
-        drop(next.turn.send(turn));
+        self.turns.state().running.retain(|running| running.number != self.number);
+        self.turns.give();
     }
 }
 
@@ -167,7 +201,17 @@ mod tests {
     use futures_util::poll;
 
     use super::{Turn, Turns};
+    use crate::access::Actor;
     use crate::orders::{Choices, in_every_order};
+    use crate::tokens::Role;
+
+    fn reader(name: &str) -> Actor {
+        Actor { name: name.to_owned(), role: Role::Read }
+    }
+
+    fn dispatcher(name: &str) -> Actor {
+        Actor { name: name.to_owned(), role: Role::Dispatch }
+    }
 
     /// Whether a waiting request was woken.
     #[derive(Default)]
@@ -203,7 +247,7 @@ mod tests {
             let (mut future, woken) = match std::mem::take(self) {
                 Self::Unasked => {
                     let turns = turns.clone();
-                    let take = async move { turns.take(actor).await };
+                    let take = async move { turns.take(&reader(actor), None).await };
                     (Box::pin(take) as Pin<Box<_>>, Arc::default())
                 }
                 Self::Waits(future, woken) if way == 1 => (future, woken),
@@ -218,8 +262,8 @@ mod tests {
     }
 
     /// Plays one order of the steps of three requests.
-    fn play(free: usize, choices: &mut Choices) {
-        let turns = Turns::new(free);
+    fn play(all: usize, choices: &mut Choices) {
+        let turns = Turns::new(all);
         let actors = ["one", "one", "two"];
         let mut requests: [Request; 3] = Default::default();
         loop {
@@ -232,12 +276,14 @@ mod tests {
             let (at, way) = ways[choices.of(ways.len())];
             requests[at].go_on(way, &turns, actors[at]);
             let state = turns.state();
-            let running: usize = state.running.values().sum();
-            assert_eq!(state.free + running, free, "no turn is lost or given twice: {choices:?}");
-            let is_awaited = state.waiting.iter().any(|waiting| !waiting.turn.is_closed());
+            let running = state.running.len();
+            assert!(running <= state.all, "no turn is given twice: {choices:?}");
+            let held = requests.iter().filter(|one| matches!(one, Request::Runs(_))).count();
+            assert!(held <= running, "no turn is lost: {choices:?}");
+            let open = |waiting: &&super::Waiting| !waiting.turn.is_closed();
             assert!(
-                state.free == 0 || !is_awaited,
-                "no request waits while a turn is free: {choices:?}"
+                !state.waiting.iter().filter(open).any(|one| state.may_run(&one.actor, None)),
+                "no request waits that may run: {choices:?}"
             );
         }
         assert!(turns.state().running.is_empty() && !turns.are_awaited());
@@ -245,34 +291,84 @@ mod tests {
 
     #[test]
     fn in_every_order_of_requests_no_turn_is_lost_or_given_twice() {
-        for free in [1, 2] {
-            assert!(in_every_order(|choices| play(free, choices)) > 100);
+        for all in [3, 4] {
+            assert!(in_every_order(|choices| play(all, choices)) > 100);
         }
     }
 
     #[tokio::test]
     async fn the_token_with_fewer_turns_comes_first() {
-        let turns = Turns::new(2);
-        let (first, second) = (turns.take("greedy").await, turns.take("greedy").await);
-        let mut more = pin!(turns.take("greedy"));
-        let mut other = pin!(turns.take("modest"));
+        let turns = Turns::new(3);
+        let take = |actor: Actor| {
+            let turns = turns.clone();
+            Box::pin(async move { turns.take(&actor, None).await })
+        };
+        let (first, second) = (take(dispatcher("greedy")).await, take(dispatcher("greedy")).await);
+        let third = take(dispatcher("")).await;
+        let mut more = take(dispatcher("greedy"));
+        let mut other = take(dispatcher("modest"));
         assert!(poll!(&mut more).is_pending() && poll!(&mut other).is_pending());
         drop(first);
         assert!(poll!(&mut more).is_pending(), "it came first, but has a turn already");
         let modest = other.await;
         drop(second);
-        let third = more.await;
-        drop((modest, third));
+        let fourth = more.await;
+        drop((modest, third, fourth));
         let state = turns.state();
-        assert!(state.free == 2 && state.running.is_empty() && state.waiting.is_empty());
+        assert!(state.running.is_empty() && state.waiting.is_empty());
+    }
+
+    #[tokio::test]
+    async fn a_token_that_may_only_read_leaves_turns_to_others_and_dispatchers_come_first() {
+        let turns = Turns::new(3);
+        let take = |actor: Actor| {
+            let turns = turns.clone();
+            Box::pin(async move { turns.take(&actor, None).await })
+        };
+        let first = take(reader("screen")).await;
+        let mut flood: Vec<_> = (0..8).map(|_| take(reader("screen"))).collect();
+        for one in &mut flood {
+            assert!(poll!(one).is_pending(), "the token has a turn");
+        }
+        let second = take(reader("analyst")).await;
+        let mut third = take(reader("auditor"));
+        assert!(poll!(&mut third).is_pending(), "readers leave a turn to dispatchers");
+        let anna = take(dispatcher("anna")).await;
+        let mut ben = take(dispatcher("ben"));
+        assert!(poll!(&mut ben).is_pending(), "all turns are taken");
+        drop(first);
+        let ben = ben.await;
+        drop((anna, ben, second));
+        let third = third.await;
+        drop(third);
+        for one in flood {
+            drop(one.await);
+        }
+        assert!(turns.state().running.is_empty());
+    }
+
+    #[tokio::test]
+    async fn work_with_the_same_key_does_not_run_together_and_leaves_its_turn_to_others() {
+        let turns = Turns::new(3);
+        let anna = dispatcher("anna");
+        let first = turns.take(&anna, Some(7)).await;
+        let mut same = pin!(turns.take(&anna, Some(7)));
+        assert!(poll!(&mut same).is_pending());
+        let other = turns.take(&anna, Some(8)).await;
+        drop(other);
+        assert!(poll!(&mut same).is_pending());
+        drop(first);
+        drop(same.await);
+        assert!(turns.state().running.is_empty());
     }
 
     #[tokio::test]
     async fn a_request_that_goes_away_gives_the_turn_up_and_the_work_stops() {
-        let turns = Turns::new(1);
+        let turns = Turns::new(3);
+        let one = reader("one");
         let (begun, has_begun) = mpsc::channel();
         let (ended, has_ended) = mpsc::channel();
-        let work = turns.work("one", move |stop| {
+        let work = turns.work(&one, None, move |stop| {
             begun.send(()).expect("the test waits");
             while !stop.is_requested() {
                 std::thread::sleep(Duration::from_millis(1));
@@ -284,12 +380,12 @@ mod tests {
             let mut work = pin!(work);
             assert!(poll!(&mut work).is_pending());
             has_begun.recv().expect("it begins");
-            let mut gone = pin!(turns.take("two"));
+            let mut gone = pin!(turns.take(&one, None));
             assert!(poll!(&mut gone).is_pending());
         }
         has_ended.recv().expect("it is asked to stop");
-        let turn = turns.take("three").await;
+        let turn = turns.take(&one, None).await;
         drop(turn);
-        assert_eq!(turns.state().free, 1);
+        assert!(turns.state().running.is_empty());
     }
 }

@@ -292,7 +292,7 @@ pub(super) async fn create(
     let (actor, id, _busy) = (writer.actor, stored.id.clone(), writer.busy);
     let answer = writer.idempotency.map(|asked| asked.answered_with(&info));
     service.days.add(stored, scenario, answer.as_ref()).await?;
-    service.days.store.record(&actor, "day made", &id, now_ms()).await?;
+    service.days.store.record(&actor.name, "day made", &id, now_ms()).await?;
     let mut answer = at_event(StatusCode::CREATED, 0, &info);
     let place = format!("/v1/days/{id}");
     let place = HeaderValue::from_str(&place).expect("an id has digits and letters");
@@ -370,7 +370,7 @@ pub(crate) struct At {
 pub(super) async fn state(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Actor(actor): Actor,
+    actor: Actor,
     Validated(at): Validated<At>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;

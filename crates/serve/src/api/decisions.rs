@@ -51,8 +51,8 @@ pub(crate) struct DecisionQuery {
 /// The inputs of a policy's evaluation.
 #[derive(Debug, Clone)]
 struct Question {
-    /// The name of the caller's token.
-    actor: String,
+    /// The caller.
+    actor: Actor,
     aircraft: String,
     policy: Option<String>,
     time: Option<Moment>,
@@ -100,7 +100,7 @@ pub(crate) struct TakenDecision {
 pub(super) async fn propose(
     State(service): State<Arc<Service>>,
     Named((day, aircraft)): Named<(String, String)>,
-    Actor(actor): Actor,
+    actor: Actor,
     Validated(asked): Validated<DecisionQuery>,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
@@ -214,7 +214,7 @@ async fn proposed(
     day: &Arc<DayCell>,
     Question { actor, aircraft, policy, time, deadline_ms }: Question,
 ) -> Result<Proposal, Error> {
-    let whom = (actor.as_str(), aircraft.as_str());
+    let whom = (&actor, aircraft.as_str());
     let policy = policy.unwrap_or_else(|| day.stored.policy.clone());
     let answer = ask(service, day, whom, policy.clone(), time);
     let in_time = match deadline_ms {
@@ -240,13 +240,13 @@ async fn proposed(
 async fn ask(
     service: &Service,
     day: &Arc<DayCell>,
-    (actor, aircraft): (&str, &str),
+    (actor, aircraft): (&Actor, &str),
     policy: String,
     time: Option<Moment>,
 ) -> Result<Proposal, Error> {
     let scenario = Arc::clone(day.state().live().scenario());
     let decider = day.deciders.get(&policy, &scenario, &service.policies).await?;
-    let mut decider = decider.lock_owned().await;
+    let key = Some(decider.key());
     let turns = if policy == QUICK_POLICY {
         &service.turns.quick_decisions
     } else if decider.is_new() {
@@ -259,7 +259,7 @@ async fn ask(
     let (others, renewals) = (turns.clone(), Arc::clone(&service.renewals));
     let ask = move |_: &Stop| {
         let busy = renewals.if_busy(others.are_awaited());
-        decider.propose(day.state(), &aircraft, time.map(Moment::time), &policy, busy)
+        decider.propose(|| day.state(), &aircraft, time.map(Moment::time), &policy, busy)
     };
-    turns.work(actor, ask).await
+    turns.work(actor, key, ask).await
 }

@@ -158,7 +158,7 @@ pub(super) async fn append(
 pub(super) async fn list(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Actor(actor): Actor,
+    actor: Actor,
     Validated(Page { after: EventNumber(after), limit, times }): Validated<Page>,
 ) -> Result<Response, Error> {
     let PageSize(limit) = limit.unwrap_or(PageSize(1_000));

@@ -117,31 +117,39 @@ pub(super) struct Body<const MOST: usize = SHORT>(pub(super) Bytes);
 impl<const MOST: usize> FromRequest<Arc<Service>> for Body<MOST> {
     type Rejection = Error;
 
-    /// Reads the body. A body that is longer than most waits for a turn and holds it until it is
-    /// read.
     async fn from_request(request: Request, service: &Arc<Service>) -> Result<Self, Error> {
-        let too_long = || Error::TooMuch { what: "bytes in such a body", most: MOST as u64 };
-        let unreadable =
-            |error| Error::BadRequest { rule: format!("its body cannot be read: {error}") };
-        let mut body = request.into_body();
-        if body.size_hint().lower() > MOST as u64 {
+        let actor = request.extensions().get().cloned().unwrap_or_default();
+        read_body::<MOST>(request.into_body(), &actor, service).await.map(Self)
+    }
+}
+
+/// Reads a body of at most `MOST` bytes. A body that is longer than most waits for a turn of its
+/// token and holds it until it is read.
+pub(super) async fn read_body<const MOST: usize>(
+    mut body: axum::body::Body,
+    actor: &Actor,
+    service: &Service,
+) -> Result<Bytes, Error> {
+    let too_long = || Error::TooMuch { what: "bytes in such a body", most: MOST as u64 };
+    let unreadable =
+        |error| Error::BadRequest { rule: format!("its body cannot be read: {error}") };
+    if body.size_hint().lower() > MOST as u64 {
+        return Err(too_long());
+    }
+    let (mut bytes, mut turn) = (BytesMut::new(), None);
+    while let Some(frame) = body.frame().await {
+        // A body may end with trailers, which have no meaning here.
+        let Ok(piece) = frame.map_err(unreadable)?.into_data() else { continue };
+        if bytes.len() + piece.len() > MOST {
             return Err(too_long());
         }
-        let (mut bytes, mut turn) = (BytesMut::new(), None);
-        while let Some(frame) = body.frame().await {
-            // A body may end with trailers, which have no meaning here.
-            let Ok(piece) = frame.map_err(unreadable)?.into_data() else { continue };
-            if bytes.len() + piece.len() > MOST {
-                return Err(too_long());
-            }
-            bytes.extend_from_slice(&piece);
-            if bytes.len() > SHORT && turn.is_none() {
-                turn = Some(service.uploads.acquire().await.expect("it is never closed"));
-            }
+        bytes.extend_from_slice(&piece);
+        if bytes.len() > SHORT && turn.is_none() {
+            turn = Some(service.uploads.take(actor, None).await);
         }
-        drop(turn);
-        Ok(Self(bytes.freeze()))
     }
+    drop(turn);
+    Ok(bytes.freeze())
 }
 
 /// The longest message about a body that cannot be read.

@@ -56,7 +56,7 @@ pub(super) async fn read(
 pub(super) async fn put(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
-    Actor(actor): Actor,
+    actor: Actor,
     Body(body): Body<UPLOAD>,
 ) -> Result<Response, Error> {
     let (store, named) = (service.days.store.clone(), name.clone());
@@ -65,7 +65,7 @@ pub(super) async fn put(
         networks::put(&store, &named, toml, now_ms()).await
     };
     let info = service.turns.readings.run(&actor, put).await?;
-    service.days.store.record(&actor, "network uploaded", &name, now_ms()).await?;
+    service.days.store.record(&actor.name, "network uploaded", &name, now_ms()).await?;
     Ok(json(StatusCode::OK, &info))
 }
 
@@ -74,12 +74,12 @@ pub(super) async fn put(
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
-    Actor(actor): Actor,
+    actor: Actor,
 ) -> Result<StatusCode, Error> {
     if !service.days.store.delete_network(&name).await? {
         return Err(Error::not_found("uploaded network", &name));
     }
-    service.days.store.record(&actor, "network deleted", &name, now_ms()).await?;
+    service.days.store.record(&actor.name, "network deleted", &name, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -87,12 +87,12 @@ pub(super) async fn delete(
 #[utoipa::path(operation_id = "validate_network", post, path = "/v1/networks/validate", tag = "networks", request_body = NewNetwork, responses((status = 200, body = NetworkInfo)))]
 pub(super) async fn validate(
     State(service): State<Arc<Service>>,
-    Actor(actor): Actor,
+    actor: Actor,
     Body(body): Body<UPLOAD>,
 ) -> Result<Response, Error> {
     let validate = move |_: &Stop| {
         let NewNetwork { toml } = parse(&body)?;
         Ok(json(StatusCode::OK, &NetworkInfo::of(&networks::read(&toml)?, false)))
     };
-    service.turns.readings.work(&actor, validate).await
+    service.turns.readings.work(&actor, None, validate).await
 }

@@ -46,7 +46,7 @@ pub(crate) struct By {
 pub(super) async fn outlook(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Actor(actor): Actor,
+    actor: Actor,
     Validated(By { policy, seq, times }): Validated<By>,
 ) -> Result<Response, Error> {
     let until = patience(&service);
@@ -59,7 +59,7 @@ pub(super) async fn outlook(
     let quick = named(&service, &day, Some(QUICK_POLICY.to_owned())).await?;
     let work =
         move |stop: &Stop| Outlook::in_time(&mut state, &policy, &quick, Patience { stop, until });
-    let outlook = service.turns.outlooks.work(&actor, work).await?;
+    let outlook = service.turns.outlooks.work(&actor, None, work).await?;
     times.answer(&day, outlook.seq, &outlook).await
 }
 
@@ -91,7 +91,7 @@ async fn named(
 pub(super) async fn what_if(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
-    Actor(actor): Actor,
+    actor: Actor,
     Validated(Written { times }): Validated<Written>,
     Body(body): Body,
 ) -> Result<Response, Error> {
@@ -119,6 +119,6 @@ pub(super) async fn what_if(
         let patience = Patience { stop, until };
         asked.compare(&mut state, otherwise, [&ours, &theirs, &quick], patience)
     };
-    let compared = service.turns.outlooks.work(&actor, compare).await?;
+    let compared = service.turns.outlooks.work(&actor, None, compare).await?;
     times.of(&day, || Ok(json(StatusCode::OK, &compared)))
 }

@@ -51,13 +51,13 @@ pub(super) async fn read(
 pub(super) async fn put(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
-    Actor(actor): Actor,
+    actor: Actor,
     Body(weights): Body<UPLOAD>,
 ) -> Result<Response, Error> {
     let (keeper, named) = (Arc::clone(&service), name.clone());
     let put = async move { keeper.policies.put(&named, &weights, now_ms()).await };
     let info = service.turns.readings.run(&actor, put).await?;
-    service.days.store.record(&actor, "policy uploaded", &name, now_ms()).await?;
+    service.days.store.record(&actor.name, "policy uploaded", &name, now_ms()).await?;
     Ok(json(StatusCode::OK, &info))
 }
 
@@ -67,12 +67,12 @@ pub(super) async fn put(
 pub(super) async fn delete(
     State(service): State<Arc<Service>>,
     Named(name): Named<String>,
-    Actor(actor): Actor,
+    actor: Actor,
 ) -> Result<StatusCode, Error> {
     if !service.days.store.delete_policy(&name).await? {
         return Err(Error::not_found("uploaded policy", &name));
     }
-    service.days.store.record(&actor, "policy deleted", &name, now_ms()).await?;
+    service.days.store.record(&actor.name, "policy deleted", &name, now_ms()).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -80,9 +80,9 @@ pub(super) async fn delete(
 #[utoipa::path(operation_id = "validate_policy", post, path = "/v1/policies/validate", tag = "policies", request_body(content = Weights, content_type = "application/octet-stream"), responses((status = 200, body = WeightsInfo)))]
 pub(super) async fn validate(
     State(service): State<Arc<Service>>,
-    Actor(actor): Actor,
+    actor: Actor,
     Body(weights): Body<UPLOAD>,
 ) -> Result<Response, Error> {
     let validate = move |_: &Stop| Ok(json(StatusCode::OK, &policies::validate(&weights)?));
-    service.turns.readings.work(&actor, validate).await
+    service.turns.readings.work(&actor, None, validate).await
 }

@@ -45,7 +45,7 @@ pub(super) async fn create(
     if let Some(known) = service.studies.asked_before(writer.idempotency.as_ref())? {
         return Ok(json(StatusCode::CREATED, &known));
     }
-    let turn = (&service.turns.outlooks, writer.actor.as_str());
+    let turn = (&service.turns.outlooks, &writer.actor);
     let asked = parse::<NewStudy>(&body)?;
     let asked = asked.check(&service.days.store, &service.policies, turn).await?;
     let study = service.studies.add(new_id(), writer.idempotency, asked)?;
@@ -66,10 +66,10 @@ pub(super) async fn read(
 pub(super) async fn report(
     State(service): State<Arc<Service>>,
     Named(study): Named<String>,
-    Actor(actor): Actor,
+    actor: Actor,
 ) -> Result<Response, Error> {
     let turns = service.turns.outlooks.clone();
-    let page = turns.work(&actor, move |_| service.studies.page(&study)).await?;
+    let page = turns.work(&actor, None, move |_| service.studies.page(&study)).await?;
     let headers = [
         (header::CONTENT_TYPE, HeaderValue::from_static("text/html; charset=utf-8")),
         (header::CONTENT_SECURITY_POLICY, policy_of(&page)),
@@ -83,10 +83,10 @@ pub(super) async fn report(
 pub(super) async fn replay(
     State(service): State<Arc<Service>>,
     Named(study): Named<String>,
-    Actor(actor): Actor,
+    actor: Actor,
 ) -> Result<Response, Error> {
     let turns = service.turns.outlooks.clone();
-    let replay = turns.work(&actor, move |_| service.studies.replay(&study)).await?;
+    let replay = turns.work(&actor, None, move |_| service.studies.replay(&study)).await?;
     Ok(([(header::CONTENT_TYPE, "application/json")], replay).into_response())
 }
 

@@ -11,7 +11,7 @@ use axum::response::{IntoResponse as _, Response};
 use siphasher::sip128::{Hasher128 as _, SipHasher24};
 
 use super::answer::again;
-use super::extract::{Body, SHORT};
+use super::extract::{SHORT, read_body};
 use crate::access::Actor;
 use crate::days::Writer;
 use crate::error::Error;
@@ -26,7 +26,7 @@ impl<S: Send + Sync> FromRequestParts<S> for Writer {
 
     /// The sender of a request, with `If-Match`.
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Error> {
-        let Ok(Actor(actor)) = Actor::from_request_parts(parts, state).await;
+        let Ok(actor) = Actor::from_request_parts(parts, state).await;
         Ok(Self { actor, if_match: if_match(&parts.headers)?, ..Self::default() })
     }
 }
@@ -51,8 +51,8 @@ impl<const MOST: usize> Idempotent<MOST> {
     /// The write, or the answer that it received before.
     async fn read(request: Request, service: &Arc<Service>) -> Result<Result<Self, String>, Error> {
         let (mut parts, body) = request.into_parts();
-        let Body(body) = Body::<MOST>::from_request(Request::new(body), service).await?;
         let mut writer = Writer::from_request_parts(&mut parts, service).await?;
+        let body = read_body::<MOST>(body, &writer.actor, service).await?;
         let Some(key) = text(&parts.headers, "idempotency-key")? else {
             return Ok(Ok(Self { writer, body }));
         };
@@ -61,7 +61,8 @@ impl<const MOST: usize> Idempotent<MOST> {
             return Err(Error::BadRequest { rule });
         }
         // Keys are separate for each token. The length separates a name from a key unambiguously.
-        let own = format!("{}:{}:{key}", writer.actor.len(), writer.actor);
+        let name = &writer.actor.name;
+        let own = format!("{}:{name}:{key}", name.len());
         let (busy, may_be_known) = service.keys.take(&own)?;
         let request = sum(parts.uri.path(), &body);
         if may_be_known && let Some(known) = service.days.store.answer(&own).await? {

@@ -21,7 +21,7 @@ impl Days {
         writer: &Writer,
     ) -> Result<(), Error> {
         let day = self.settled(id, writer).await?;
-        self.store.set_archived(id, archived, writer.if_match, &writer.actor).await?;
+        self.store.set_archived(id, archived, writer.if_match, &writer.actor.name).await?;
         self.drop_from_memory(&day);
         Ok(())
     }
@@ -32,7 +32,7 @@ impl Days {
     /// Returns the errors of [`set_archived`](Self::set_archived).
     pub(crate) async fn delete(&self, id: &str, writer: &Writer) -> Result<(), Error> {
         let day = self.settled(id, writer).await?;
-        self.store.delete(id, writer.if_match, &writer.actor).await?;
+        self.store.delete(id, writer.if_match, &writer.actor.name).await?;
         self.drop_from_memory(&day);
         Ok(())
     }

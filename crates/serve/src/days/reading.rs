@@ -5,6 +5,7 @@ use std::sync::Arc;
 use vertifleet_core::Scenario;
 
 use super::Days;
+use crate::access::Actor;
 use crate::day_cell::DayCell;
 use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
@@ -15,7 +16,7 @@ impl Days {
     pub(super) async fn read(&self, id: &str) -> Result<Arc<DayCell>, Error> {
         let (store, id) = (self.store.clone(), id.to_owned());
         // The first caller reads the day for all, so it is attributed to no token.
-        self.turns.run("", async move { read(&store, &id).await }).await
+        self.turns.run(&Actor::default(), async move { read(&store, &id).await }).await
     }
 
     /// A day as it was after an event.
@@ -25,7 +26,7 @@ impl Days {
     /// [`get`](Self::get).
     pub(crate) async fn at(
         &self,
-        actor: &str,
+        actor: &Actor,
         day: &DayCell,
         seq: u64,
     ) -> Result<DispatchDay, Error> {
@@ -40,7 +41,7 @@ impl Days {
     /// Returns [`Error::BadData`] if an event is not possible then.
     pub(crate) async fn replayed(
         &self,
-        actor: &str,
+        actor: &Actor,
         day: &DayCell,
         scenario: Arc<Scenario>,
         seq: u64,

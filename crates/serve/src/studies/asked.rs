@@ -9,6 +9,7 @@ use vertifleet_study::comparison::{Comparison, DrawnDays};
 use vertifleet_study::competitor::Selection;
 use vertifleet_study::{NetworkOrigin, PolicySource, PolicySpec};
 
+use crate::access::Actor;
 use crate::error::Error;
 use crate::networks;
 use crate::policies::Policies;
@@ -125,7 +126,7 @@ impl NewStudy {
         let bound_step = bounds.then(Step::default);
         let (origin, warnings) = (NetworkOrigin::Own, Vec::new());
         let asked = Asked { network, origin, policies, models, drawn, split, bound_step, warnings };
-        turns.work(actor, move |_| asked.tried()).await
+        turns.work(actor, None, move |_| asked.tried()).await
     }
 }
 

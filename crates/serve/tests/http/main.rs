@@ -9,6 +9,7 @@ mod console;
 mod days_of_ones_own;
 mod described_requests;
 mod logs;
+mod fair_turns;
 mod malformed;
 mod openapi;
 mod operated_days;
