@@ -101,10 +101,15 @@ pub fn operate(
         }
     }
     while let Some(decision) = reporter.next_decision() {
-        if let Err(Stopped) = wait(operation.speed, begun, decision.time.since(start), stop) {
+        let pace = Pace { speed: operation.speed, begun, start, stop };
+        if let Err(Stopped) =
+            report_in_time(&mut client, &made.id, &mut reporter, pace, decision.time)?
+        {
             return Ok(None);
         }
-        client.report(&made.id, &mut reporter, decision.time)?;
+        if let Err(Stopped) = pace.wait(decision.time) {
+            return Ok(None);
+        }
         let asked = Instant::now();
         let aircraft = &operation.day.aircraft[decision.aircraft.at()].id;
         let taken = client.decide(&made.id, aircraft, decision.time)?;
@@ -114,7 +119,11 @@ pub fn operate(
         reporter.apply(to).map_err(|refusal| client.wrong(&refusal.to_string()))?;
         watch(decision.time, asked);
     }
-    client.report(&made.id, &mut reporter, Time::from_seconds(u32::MAX))?;
+    let pace = Pace { speed: operation.speed, begun, start, stop };
+    let end = Time::from_seconds(u32::MAX);
+    if let Err(Stopped) = report_in_time(&mut client, &made.id, &mut reporter, pace, end)? {
+        return Ok(None);
+    }
     let state: State = client.get(&format!("/v1/days/{}/state", made.id))?;
     took.sort_by(f64::total_cmp);
     let rank = |share: f64| {
@@ -146,14 +155,47 @@ fn new_day(operation: &Operation) -> Value {
     day
 }
 
-/// Waits until a time of the day has come.
-fn wait(speed: Option<f64>, begun: Instant, day_s: u32, stop: &Stop) -> Result<(), Stopped> {
-    loop {
-        stop.check()?;
-        let Some(speed) = speed else { return Ok(()) };
-        let due = Duration::from_secs_f64(f64::from(day_s) / speed);
-        let Some(left) = due.checked_sub(begun.elapsed()) else { return Ok(()) };
-        thread::sleep(left.min(Duration::from_millis(100)));
+/// Reports everything that becomes known up to a time: each event at its time, or all at once at
+/// full speed.
+fn report_in_time(
+    client: &mut Client,
+    day: &str,
+    reporter: &mut Reporter,
+    pace: Pace<'_>,
+    until: Time,
+) -> Result<Result<(), Stopped>, Error> {
+    while pace.speed.is_some()
+        && let Some(time) = reporter.next_report_time(until)
+    {
+        if let Err(stopped) = pace.wait(time) {
+            return Ok(Err(stopped));
+        }
+        client.report(day, reporter, time)?;
+    }
+    client.report(day, reporter, until)?;
+    Ok(Ok(()))
+}
+
+/// The speed of a day that began at an instant.
+#[derive(Clone, Copy)]
+struct Pace<'a> {
+    speed: Option<f64>,
+    begun: Instant,
+    /// The time of the day at that instant.
+    start: Time,
+    stop: &'a Stop,
+}
+
+impl Pace<'_> {
+    /// Waits until a time of the day has come.
+    fn wait(self, time: Time) -> Result<(), Stopped> {
+        loop {
+            self.stop.check()?;
+            let Some(speed) = self.speed else { return Ok(()) };
+            let due = Duration::from_secs_f64(f64::from(time.since(self.start)) / speed);
+            let Some(left) = due.checked_sub(self.begun.elapsed()) else { return Ok(()) };
+            thread::sleep(left.min(Duration::from_millis(100)));
+        }
     }
 }
 

@@ -84,8 +84,13 @@ impl<'a> People<'a> {
                 begun += look.elapsed();
                 continue;
             }
+            // Each event is reported at its time.
+            let next = match self.operation.speed {
+                Some(_) => reporter.next_report_time(decision.time).unwrap_or(decision.time),
+                None => decision.time,
+            };
             // Until the next decision is due, earlier ones can still be cancelled.
-            if !self.is_due(begun, decision.time.since(start)) {
+            if !self.is_due(begun, next.since(start)) {
                 thread::sleep(POLL_INTERVAL);
                 if now.is_some() {
                     self.follow(reporter, at)?;
@@ -94,12 +99,12 @@ impl<'a> People<'a> {
             }
             // The next event depends on the actions of people so far.
             let before = reporter.clone();
-            if !self.client.report_as_heard(self.day, reporter, decision.time)? {
+            if !self.client.report_as_heard(self.day, reporter, next)? {
                 *reporter = before;
                 self.follow(reporter, at)?;
                 continue;
             }
-            now = Some(decision.time);
+            now = Some(next.max(at));
             asked = Instant::now();
         }
         Ok(Ok(()))

@@ -167,7 +167,10 @@ impl Client {
         until: Time,
     ) -> Result<bool, Error> {
         let mut events = events_until(reporter, until);
-        events.push(Event { time: Some(until.into()), what: EventKind::Clock });
+        // An event at that time moves the clock too.
+        if events.iter().all(|event| event.time != Some(until.into())) {
+            events.push(Event { time: Some(until.into()), what: EventKind::Clock });
+        }
         let path = format!("/v1/days/{day}/events");
         let mut heard = Some(self.heard);
         for events in events.chunks(MOST_EVENTS) {

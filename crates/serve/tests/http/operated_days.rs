@@ -154,3 +154,21 @@ fn decide_all(service: &Running, day: &str, state: &Value) {
         assert_eq!(taken.status, 201, "{taken:?}");
     }
 }
+
+#[test]
+fn at_a_speed_each_event_is_reported_at_its_time() {
+    let (_folder, service) = service();
+    let operation = operation(&service, &day("paper", 2), "greedy");
+    let operation = Operation { speed: Some(20_000.0), ..operation };
+    let report = operate(&operation, &Stop::default(), |_, _| ());
+    let report = report.expect("the service answers").expect("it was not stopped");
+    let page = service.get(&format!("/v1/days/{}/events?limit=10000", report.day)).json;
+    let all = page["events"].as_array().expect("a list");
+    let reports: Vec<_> = all.iter().filter(|one| one["event"]["type"] != "decided").collect();
+    let of_other_times = |pair: &&[&Value]| pair[0]["event"]["time"] != pair[1]["event"]["time"];
+    let pairs: Vec<_> = reports.windows(2).filter(of_other_times).collect();
+    // Events of one request have one time of storage.
+    let together = pairs.iter().filter(|pair| pair[0]["at_ms"] == pair[1]["at_ms"]).count();
+    assert!(pairs.len() > 100, "{} reports", pairs.len());
+    assert!(together < pairs.len() / 10, "{together} of {} came together", pairs.len());
+}

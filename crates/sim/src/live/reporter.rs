@@ -113,6 +113,20 @@ impl Reporter {
         }
     }
 
+    /// When the next report becomes known that is up to a time.
+    pub fn next_report_time(&mut self, until: Time) -> Option<Time> {
+        while let Some(&Reverse((time, _, at))) = self.later.peek()
+            && time <= until
+        {
+            if self.reports[at].is_some() {
+                return Some(time);
+            }
+            // It was taken back.
+            self.later.pop();
+        }
+        None
+    }
+
     /// Carries the decision out that is taken now. What it leads to is reported when it becomes
     /// known.
     ///
