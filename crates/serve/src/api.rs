@@ -1,6 +1,7 @@
 //! The paths of the service.
 
 mod answer;
+mod day_state;
 mod days;
 mod decisions;
 mod demand;
@@ -40,7 +41,7 @@ pub(crate) fn router(service: Arc<Service>, console: Console) -> Router {
         .route("/v1/days/{day}", get(days::read).delete(days::delete))
         .route("/v1/days/{day}/archive", post(days::archive))
         .route("/v1/days/{day}/unarchive", post(days::unarchive))
-        .route("/v1/days/{day}/state", get(days::state))
+        .route("/v1/days/{day}/state", get(day_state::state))
         .route("/v1/days/{day}/demand", get(demand::demand))
         .route("/v1/days/{day}/ledger", get(ledger::ledger))
         .route("/v1/days/{day}/scenario", get(days::scenario))

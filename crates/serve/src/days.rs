@@ -247,7 +247,10 @@ impl Days {
         let answer = {
             // Held until they are in the queue, so that a day's events are stored in order.
             let mut state = day.state();
-            writer.check(state.seq())?;
+            writer.check(state.seq()).map_err(|moved| match &events[..] {
+                [Event { what, .. }] => state.latest().explain(moved, what),
+                _ => moved,
+            })?;
             if state.seq() + events.len() as u64 > self.most_events {
                 return Err(Error::TooMuch { what: "events on a day", most: self.most_events });
             }
@@ -292,8 +295,10 @@ fn take_all(
     let at_ms = now_ms();
     let before = (events.len() > 1).then(|| state.clone());
     let of = events.len();
-    let take = |(at, event)| {
-        let taken = state.check_time(&event).and_then(|()| state.take(event, actor, at_ms));
+    let take = |(at, event): (usize, Event)| {
+        let what = event.what.clone();
+        let taken = state.check(&event).and_then(|()| state.take(event, actor, at_ms));
+        let taken = taken.map_err(|refused| state.latest().explain(refused, &what));
         taken.map_err(|cause| match of {
             1 => cause,
             _ => Error::InList { number: at + 1, of, cause: Box::new(cause) },

@@ -232,7 +232,11 @@ impl Decider {
         let begun = Instant::now();
         let (seq, ix) = (state.seq(), state.ids().aircraft(aircraft)?);
         let live = state.live_mut();
-        let decision = live.decision(ix, time.unwrap_or_default())?;
+        let decision = match live.decision(ix, time.unwrap_or_default()) {
+            Ok(decision) => decision,
+            Err(refused) => return Err(state.latest().explain_decision(refused.into(), aircraft)),
+        };
+        let live = state.live_mut();
         let refusals = refusals(live.view_at(&decision, &mut self.room), &decision);
         // The policy evaluates a copy, so that events can be applied in the meantime.
         drop(state);

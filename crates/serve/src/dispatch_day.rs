@@ -1,14 +1,19 @@
 //! A day in memory: the fold of its scenario and its events.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
+use serde::Serialize;
+use utoipa::ToSchema;
 use vertifleet_core::Scenario;
-use vertifleet_sim::live::{LiveDay, Notice};
+use vertifleet_sim::live::{LiveDay, Phase, ReportError};
 
 use crate::error::Error;
-use crate::event::Event;
+use crate::event::{Event, EventKind};
 use crate::ids::Ids;
+use crate::latest_events::{Happened, LatestEvents, in_words};
 use crate::moment::Moment;
+use crate::notice::{self, EventNotice};
 use crate::store::Head;
 use crate::taken_event::TakenEvent;
 
@@ -21,14 +26,44 @@ pub(crate) struct DispatchDay {
     seq: u64,
     /// The checksum over them.
     chain: u32,
-    notices: Vec<(u64, String)>,
+    latest: LatestEvents,
+    acknowledged: Vec<Acknowledgement>,
 }
+
+/// An alert that people have seen.
+#[derive(Debug, Clone, PartialEq, Serialize, ToSchema)]
+pub(crate) struct Acknowledgement {
+    /// The alert.
+    pub(crate) alert: String,
+    /// The number of the event.
+    pub(crate) seq: u64,
+    /// The name of the sender's token; empty without tokens.
+    pub(crate) actor: String,
+    /// The time of the event.
+    pub(crate) time: Moment,
+    /// The comment.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) reason: Option<String>,
+}
+
+/// Largest number of corrections of a day: each computes the day again.
+const MOST_CORRECTIONS: u64 = 1_000;
+
+/// Largest number of acknowledgements in a state.
+const MOST_ACKNOWLEDGEMENTS: usize = 1_000;
 
 impl DispatchDay {
     /// A day before its first event.
     pub(crate) fn new(scenario: Arc<Scenario>) -> Self {
         let ids = Arc::new(Ids::of(&scenario));
-        Self { live: LiveDay::new(scenario), ids, seq: 0, chain: 0, notices: Vec::new() }
+        Self {
+            live: LiveDay::new(scenario),
+            ids,
+            seq: 0,
+            chain: 0,
+            latest: LatestEvents::default(),
+            acknowledged: Vec::new(),
+        }
     }
 
     /// The simulator's state of the day.
@@ -58,16 +93,37 @@ impl DispatchDay {
 
     /// Notices for people: those that came with events, with their numbers, and those about the
     /// current state.
-    pub(crate) fn notices(&self) -> impl Iterator<Item = (Option<u64>, String)> + '_ {
-        let told = self.notices.iter().map(|(seq, text)| (Some(*seq), text.clone()));
-        told.chain(self.live.notices().map(|notice| (None, notice.to_string())))
+    pub(crate) fn notices(&self) -> impl Iterator<Item = (Option<u64>, EventNotice)> + '_ {
+        let told = self.live.past_notices().map(|(seq, notice)| (Some(seq), notice.into()));
+        told.chain(self.live.notices().map(|notice| (None, (&notice).into())))
     }
 
-    /// Checks that the time of a client's event is plausible.
+    /// The alerts that people have seen, each by its latest acknowledgement; the oldest first.
+    pub(crate) fn acknowledged(&self) -> Vec<Acknowledgement> {
+        let mut seen = HashSet::new();
+        let newest = self.acknowledged.iter().rev();
+        let latest = newest.filter(|one| seen.insert(&one.alert)).take(MOST_ACKNOWLEDGEMENTS);
+        let mut latest: Vec<_> = latest.cloned().collect();
+        latest.reverse();
+        latest
+    }
+
+    /// The latest events about its aircraft.
+    pub(crate) fn latest(&self) -> &LatestEvents {
+        &self.latest
+    }
+
+    /// Checks that the time of a client's event is plausible, and that the day does not have too
+    /// many corrections.
     ///
     /// # Errors
-    /// Returns [`Error::UnknownId`] or [`Error::ReportError`].
-    pub(crate) fn check_time(&self, event: &Event) -> Result<(), Error> {
+    /// Returns [`Error::UnknownId`], [`Error::ReportError`] or [`Error::TooMuch`].
+    pub(crate) fn check(&self, event: &Event) -> Result<(), Error> {
+        if matches!(event.what, EventKind::Corrected { .. })
+            && self.live.corrections() as u64 >= MOST_CORRECTIONS
+        {
+            return Err(Error::TooMuch { what: "corrections of a day", most: MOST_CORRECTIONS });
+        }
         let time = event.time.map_or(self.live.now(), Moment::time);
         Ok(self.live.check_times(time, &event.what.report(&self.ids)?)?)
     }
@@ -84,9 +140,10 @@ impl DispatchDay {
         at_ms: i64,
     ) -> Result<TakenEvent, Error> {
         let report = event.what.report(&self.ids)?;
-        let time = event.time.get_or_insert_with(|| self.live.now().into()).time();
-        let notices = self.live.take(time, &report)?;
-        let texts: Vec<String> = notices.iter().map(Notice::to_string).collect();
+        let time = event.time.map_or(self.live.now(), Moment::time);
+        let notices = self.live.take(time, &report).map_err(refused)?;
+        // A correction may take the clock back. Then it happens at the clock of the corrected day.
+        let time = *event.time.get_or_insert_with(|| time.min(self.live.now()).into());
         let json = |value: serde_json::Result<String>| value.expect("plain data can be written");
         let mut taken = TakenEvent {
             seq: self.seq + 1,
@@ -94,16 +151,46 @@ impl DispatchDay {
             at_ms,
             actor: actor.to_owned(),
             body: json(serde_json::to_string(&event)),
-            notices: json(serde_json::to_string(&texts)),
+            notices: notice::to_json(&notices),
         };
         taken.chain = taken.chain_after(self.chain);
-        self.enter(taken.seq, taken.chain, texts);
+        self.enter(&taken, event, time);
         Ok(taken)
     }
 
-    fn enter(&mut self, seq: u64, chain: u32, notices: Vec<String>) {
-        (self.seq, self.chain) = (seq, chain);
-        self.notices.extend(notices.into_iter().map(|text| (seq, text)));
+    /// Enters an event that the simulator has taken.
+    fn enter(&mut self, taken: &TakenEvent, event: Event, time: Moment) {
+        let TakenEvent { seq, chain, at_ms, actor, .. } = taken;
+        (self.seq, self.chain) = (*seq, *chain);
+        match &event.what {
+            EventKind::Acknowledged { alert, reason } => self.acknowledged.push(Acknowledgement {
+                alert: alert.clone(),
+                seq: *seq,
+                actor: actor.clone(),
+                time,
+                reason: reason.clone(),
+            }),
+            EventKind::Corrected { event, .. } => {
+                self.acknowledged.retain(|one| one.seq != *event);
+            }
+            _ => {}
+        }
+        let Some(aircraft) = self.aircraft_of(&event.what) else { return };
+        let ix = self.ids.aircraft(&aircraft).expect("the event was taken");
+        let holds = self.live.aircraft_now(ix).phase == Phase::Standing;
+        let text = in_words(&event.what, &aircraft, holds, actor);
+        let happened = Happened { seq: *seq, actor: actor.clone(), at_ms: *at_ms, text, event };
+        self.latest.note(&aircraft, holds, happened);
+    }
+
+    /// The aircraft that an event is about; of a correction, that of the corrected event.
+    fn aircraft_of(&self, what: &EventKind) -> Option<String> {
+        let EventKind::Corrected { event, .. } = what else {
+            return what.aircraft().map(str::to_owned);
+        };
+        let position = usize::try_from(*event).ok()?.checked_sub(1)?;
+        let aircraft = self.live.reports().nth(position)?.aircraft()?;
+        Some(self.live.scenario().aircraft[aircraft.at()].id.clone())
     }
 
     /// Checks that all events exist that the day's row counts.
@@ -139,9 +226,19 @@ impl DispatchDay {
         let event: Event =
             serde_json::from_str(&taken.body).map_err(|error| bad(error.to_string()))?;
         let report = event.what.report(&self.ids).map_err(|error| bad(error.to_string()))?;
-        let time = event.time.ok_or_else(|| bad("it has no time".to_owned()))?.time();
-        let notices = self.live.take(time, &report).map_err(|unfit| bad(unfit.to_string()))?;
-        self.enter(taken.seq, taken.chain, notices.iter().map(Notice::to_string).collect());
+        let time = event.time.ok_or_else(|| bad("it has no time".to_owned()))?;
+        self.live.take(time.time(), &report).map_err(|unfit| bad(unfit.to_string()))?;
+        self.enter(taken, event, time);
         Ok(())
+    }
+}
+
+/// The refusal of an event by the simulator.
+fn refused(error: ReportError) -> Error {
+    match error {
+        ReportError::CannotCorrect { .. } | ReportError::NeededLater { .. } => {
+            Error::CannotCorrect(error)
+        }
+        other => other.into(),
     }
 }

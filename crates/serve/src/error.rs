@@ -1,12 +1,14 @@
 //! The errors of the service, with stable codes (V6xx) and their HTTP status.
 
 mod codes;
+mod status;
 
 use std::path::PathBuf;
 
-use axum::http::StatusCode;
 use vertifleet_policy::PolicyError;
 use vertifleet_sim::live::ReportError;
+
+use crate::latest_events::Happened;
 
 /// An expected error of the service. Messages are fragments for people;
 /// [`code`](vertifleet_core::Coded::code) is for programs and for the error index.
@@ -94,6 +96,23 @@ pub enum Error {
         /// Its error.
         cause: Box<Error>,
     },
+
+    /// An event or a decision that another event made impossible, with the code of its error.
+    #[error("{cause}; {happened}")]
+    Overtaken {
+        /// Its error.
+        cause: Box<Error>,
+        /// The event that came first.
+        happened: Box<Happened>,
+    },
+
+    /// V632 the event cannot be corrected. There is no such earlier event, it was corrected before,
+    /// it is itself a correction, or a later event is not possible without it.
+    ///
+    /// Fix: the message names the reason. Correct later events that depend on it first, the latest
+    /// one first.
+    #[error("{0}")]
+    CannotCorrect(ReportError),
 
     /// V605 the day has changed. The request was made for an earlier state (`If-Match`), and
     /// another client has added an event since.
@@ -426,50 +445,6 @@ impl Error {
     /// Something that does not exist.
     pub(crate) fn not_found(what: &'static str, id: &str) -> Self {
         Self::NotFound { what, id: id.chars().take(64).collect() }
-    }
-
-    /// The status of the answer.
-    pub fn status(&self) -> StatusCode {
-        match self {
-            Self::Core(_) | Self::Study(_) | Self::BadRequest { .. } => StatusCode::BAD_REQUEST,
-            Self::InList { cause, .. } => cause.status(),
-            Self::NotFound { .. } | Self::NoSuchEvent { .. } | Self::OtherLog { .. } => {
-                StatusCode::NOT_FOUND
-            }
-            Self::UnknownId { .. }
-            | Self::ReportError(_)
-            | Self::Contradiction { .. }
-            | Self::KeyReused { .. } => StatusCode::UNPROCESSABLE_ENTITY,
-            Self::Moved { .. } => StatusCode::PRECONDITION_FAILED,
-            Self::TooMuch { what, .. } if what.starts_with("bytes") => {
-                StatusCode::PAYLOAD_TOO_LARGE
-            }
-            Self::Store { .. } | Self::StoreHangs { .. } => StatusCode::SERVICE_UNAVAILABLE,
-            Self::TooOften { .. } | Self::TooMuch { what: "streams", .. } => {
-                StatusCode::TOO_MANY_REQUESTS
-            }
-            Self::Archived { .. }
-            | Self::KeyInUse { .. }
-            | Self::Conflict
-            | Self::PolicyInUse { .. }
-            | Self::NameTaken { .. }
-            | Self::TooMuch { .. } => StatusCode::CONFLICT,
-            Self::TooSlow { .. } => StatusCode::REQUEST_TIMEOUT,
-            Self::NoToken => StatusCode::UNAUTHORIZED,
-            Self::NotPermitted { .. } | Self::ForeignPage { .. } => StatusCode::FORBIDDEN,
-            Self::NotAllowed { .. } => StatusCode::METHOD_NOT_ALLOWED,
-            Self::BadData { .. }
-            | Self::ForeignData { .. }
-            | Self::Internal { .. }
-            | Self::Unprotected { .. }
-            | Self::InUse { .. }
-            | Self::BadCertificate { .. }
-            | Self::BadCollector { .. }
-            | Self::BadBasemap { .. }
-            | Self::BadDatabase
-            | Self::CannotListen { .. }
-            | Self::NoAnswer { .. } => StatusCode::INTERNAL_SERVER_ERROR,
-        }
     }
 }
 

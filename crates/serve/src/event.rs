@@ -1,12 +1,13 @@
 //! Events in JSON: everything that is reported to a live day, with ids instead of positions.
 
+mod of_report;
+
 use std::fmt;
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{DeserializeSeed, IntoDeserializer as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, de};
 use utoipa::ToSchema;
-use vertifleet_core::{AircraftIx, Scenario, VertiportIx};
 use vertifleet_sim::live::{Booking, Report, Routes};
 
 use crate::error::Error;
@@ -102,15 +103,29 @@ pub(crate) fn reason<'de, D: Deserializer<'de>>(from: D) -> Result<Option<String
     Ok(reason)
 }
 
+/// Largest number of characters in the name of an alert.
+const LONGEST_ALERT: usize = 200;
+
+/// Reads the name of an alert.
+fn alert_name<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    let alert = String::deserialize(from)?;
+    if (1..=LONGEST_ALERT).contains(&alert.chars().count()) {
+        return Ok(alert);
+    }
+    Err(de::Error::custom(format!("`alert` has 1 to {LONGEST_ALERT} characters")))
+}
+
 /// The kind of an event, with its members.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, ToSchema)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum EventKind {
     /// The day has reached this time; nothing else is known. Other events may be at most four hours
     /// later than the latest time.
+    #[schema(title = "ClockEvent")]
     Clock,
     /// A ready aircraft flies to a vertiport; its own vertiport means hold. The rules must permit
     /// it.
+    #[schema(title = "DecidedEvent")]
     Decided {
         /// The aircraft.
         aircraft: String,
@@ -128,6 +143,7 @@ pub(crate) enum EventKind {
         reason: Option<String>,
     },
     /// The latest decision of an aircraft is cancelled. It must not have departed.
+    #[schema(title = "UndoneEvent")]
     Undone {
         /// The aircraft.
         aircraft: String,
@@ -137,6 +153,7 @@ pub(crate) enum EventKind {
         reason: Option<String>,
     },
     /// An aircraft has left its stand.
+    #[schema(title = "DepartedEvent")]
     Departed {
         /// The aircraft.
         aircraft: String,
@@ -149,6 +166,7 @@ pub(crate) enum EventKind {
         passengers: Option<u16>,
     },
     /// An aircraft is on the ground.
+    #[schema(title = "LandedEvent")]
     Landed {
         /// The aircraft.
         aircraft: String,
@@ -161,6 +179,7 @@ pub(crate) enum EventKind {
         charge_kwh: Option<f64>,
     },
     /// An aircraft on the ground is expected to be ready at a time.
+    #[schema(title = "ChargingEvent")]
     Charging {
         /// The aircraft.
         aircraft: String,
@@ -168,12 +187,14 @@ pub(crate) enum EventKind {
         ready: Moment,
     },
     /// An aircraft is ready.
+    #[schema(title = "ReadyEvent")]
     Ready {
         /// The aircraft.
         aircraft: String,
     },
     /// The next step of an aircraft is expected at another time: its departure if it has been
     /// dispatched, its landing if it is in the air, the time at which it is ready if it stands.
+    #[schema(title = "DelayedEvent")]
     Delayed {
         /// The aircraft.
         aircraft: String,
@@ -181,6 +202,7 @@ pub(crate) enum EventKind {
         until: Moment,
     },
     /// An aircraft cannot fly before a time, or until it is back in service.
+    #[schema(title = "OutOfServiceEvent")]
     OutOfService {
         /// The aircraft.
         aircraft: String,
@@ -193,12 +215,14 @@ pub(crate) enum EventKind {
         reason: Option<String>,
     },
     /// An aircraft can fly again.
+    #[schema(title = "BackInServiceEvent")]
     BackInService {
         /// The aircraft.
         aircraft: String,
     },
     /// Routes are closed to new flights: one direction between two vertiports, or all routes to or
     /// from a vertiport.
+    #[schema(title = "ClosedEvent")]
     Closed {
         /// The routes.
         routes: RouteNames,
@@ -211,11 +235,13 @@ pub(crate) enum EventKind {
         reason: Option<String>,
     },
     /// Routes are open again.
+    #[schema(title = "ReopenedEvent")]
     Reopened {
         /// The routes.
         routes: RouteNames,
     },
     /// The number of passengers who still want to fly in a period has changed, actual or forecast.
+    #[schema(title = "DemandEvent")]
     Demand {
         /// A time in the period.
         period: Moment,
@@ -223,6 +249,7 @@ pub(crate) enum EventKind {
         pairs: Vec<PairDemand>,
     },
     /// More passengers want to fly.
+    #[schema(title = "BookedEvent")]
     Booked {
         /// A time in the period in which they want to fly.
         period: Moment,
@@ -235,6 +262,7 @@ pub(crate) enum EventKind {
         passengers: u32,
     },
     /// Passengers no longer want to fly.
+    #[schema(title = "CancelledEvent")]
     Cancelled {
         /// A time in the period in which they wanted to fly.
         period: Moment,
@@ -246,7 +274,32 @@ pub(crate) enum EventKind {
         #[schema(format = Int64, maximum = 4_294_967_295u32)]
         passengers: u32,
     },
+    /// An earlier event is taken back: the day is as if it had never been reported. The clock of the
+    /// day may run back then. Later events must be possible without it.
+    #[schema(title = "CorrectedEvent")]
+    Corrected {
+        /// The number of the event.
+        #[schema(minimum = 1)]
+        event: u64,
+        /// Why.
+        #[serde(default, deserialize_with = "reason", skip_serializing_if = "Option::is_none")]
+        #[schema(max_length = 1_000)]
+        reason: Option<String>,
+    },
+    /// People have seen an alert. The state lists it for all clients.
+    #[schema(title = "AcknowledgedEvent")]
+    Acknowledged {
+        /// The alert, by a name that clients agree on.
+        #[serde(deserialize_with = "alert_name")]
+        #[schema(min_length = 1, max_length = 200)]
+        alert: String,
+        /// A comment.
+        #[serde(default, deserialize_with = "reason", skip_serializing_if = "Option::is_none")]
+        #[schema(max_length = 1_000)]
+        reason: Option<String>,
+    },
     /// The number of stands of a vertiport changes, or of chargers if they are counted separately.
+    #[schema(title = "StandsEvent")]
     Stands {
         /// The vertiport.
         vertiport: String,
@@ -265,6 +318,7 @@ pub(crate) enum EventKind {
 )]
 pub(crate) enum RouteNames {
     /// From one vertiport to another.
+    #[schema(title = "OneWayRoute")]
     Way {
         /// The vertiport of departure.
         from: String,
@@ -272,6 +326,7 @@ pub(crate) enum RouteNames {
         to: String,
     },
     /// All routes of a vertiport.
+    #[schema(title = "VertiportRoutes")]
     Of {
         /// The vertiport.
         vertiport: String,
@@ -292,6 +347,22 @@ pub(crate) struct PairDemand {
 }
 
 impl EventKind {
+    /// The aircraft that it names, if it names one.
+    pub(crate) fn aircraft(&self) -> Option<&str> {
+        match self {
+            Self::Decided { aircraft, .. }
+            | Self::Undone { aircraft, .. }
+            | Self::Departed { aircraft, .. }
+            | Self::Landed { aircraft, .. }
+            | Self::Charging { aircraft, .. }
+            | Self::Ready { aircraft }
+            | Self::Delayed { aircraft, .. }
+            | Self::OutOfService { aircraft, .. }
+            | Self::BackInService { aircraft } => Some(aircraft),
+            _ => None,
+        }
+    }
+
     /// The event as a report to the simulator.
     ///
     /// # Errors
@@ -347,6 +418,8 @@ impl EventKind {
             Self::Cancelled { period, from, to, passengers, .. } => {
                 Report::Cancelled { booking: ids.booking(*period, (from, to), *passengers)? }
             }
+            Self::Acknowledged { .. } => Report::Acknowledged,
+            Self::Corrected { event, .. } => Report::Corrected { event: *event },
             Self::Stands { vertiport, stands, .. } => {
                 Report::Stands { vertiport: ids.vertiport(vertiport)?, stands: *stands }
             }
@@ -372,81 +445,5 @@ impl Ids {
     ) -> Result<Booking, Error> {
         let (from, to) = (self.vertiport(from)?, self.vertiport(to)?);
         Ok(Booking { period: self.period(period.time())?, from, to, passengers })
-    }
-}
-
-impl EventKind {
-    /// A report of the simulator as an event of its day.
-    pub(crate) fn of(report: &Report, day: &Scenario) -> Self {
-        let aircraft = |aircraft: AircraftIx| day.aircraft[aircraft.at()].id.clone();
-        let id = |vertiport: VertiportIx| day.vertiports[vertiport.at()].id.clone();
-        let start = |period: usize| Moment::from(day.periods[period]);
-        let names = |routes: &Routes| match *routes {
-            Routes::Way { from, to } => RouteNames::Way { from: id(from), to: id(to) },
-            Routes::Of(vertiport) => RouteNames::Of { vertiport: id(vertiport) },
-        };
-        match report {
-            Report::Clock => Self::Clock,
-            Report::Decided { aircraft: of, to } => Self::Decided {
-                aircraft: aircraft(*of),
-                to: id(*to),
-                policy: None,
-                instead_of: None,
-                reason: None,
-            },
-            Report::Undone { aircraft: of } => {
-                Self::Undone { aircraft: aircraft(*of), reason: None }
-            }
-            Report::Departed { aircraft: of, to, passengers } => {
-                Self::Departed { aircraft: aircraft(*of), to: to.map(id), passengers: *passengers }
-            }
-            Report::Landed { aircraft: of, at, charge_kwh } => {
-                Self::Landed { aircraft: aircraft(*of), at: at.map(id), charge_kwh: *charge_kwh }
-            }
-            Report::Charging { aircraft: of, ready } => {
-                Self::Charging { aircraft: aircraft(*of), ready: (*ready).into() }
-            }
-            Report::Ready { aircraft: of } => Self::Ready { aircraft: aircraft(*of) },
-            Report::Delayed { aircraft: of, until } => {
-                Self::Delayed { aircraft: aircraft(*of), until: (*until).into() }
-            }
-            Report::OutOfService { aircraft: of, until } => Self::OutOfService {
-                aircraft: aircraft(*of),
-                until: until.map(Moment::from),
-                reason: None,
-            },
-            Report::BackInService { aircraft: of } => {
-                Self::BackInService { aircraft: aircraft(*of) }
-            }
-            Report::Closed { routes, until } => {
-                Self::Closed { routes: names(routes), until: until.map(Moment::from), reason: None }
-            }
-            Report::Reopened { routes } => Self::Reopened { routes: names(routes) },
-            Report::Demand { period, pairs } => {
-                let pair = |&(from, to, passengers): &(VertiportIx, VertiportIx, u32)| PairDemand {
-                    from: id(from),
-                    to: id(to),
-                    passengers,
-                };
-                Self::Demand { period: start(*period), pairs: pairs.iter().map(pair).collect() }
-            }
-            Report::Booked { booking: Booking { period, from, to, passengers } } => Self::Booked {
-                period: start(*period),
-                from: id(*from),
-                to: id(*to),
-                passengers: *passengers,
-            },
-            Report::Cancelled { booking: Booking { period, from, to, passengers } } => {
-                Self::Cancelled {
-                    period: start(*period),
-                    from: id(*from),
-                    to: id(*to),
-                    passengers: *passengers,
-                }
-            }
-            Report::Stands { vertiport, stands } => {
-                Self::Stands { vertiport: id(*vertiport), stands: *stands }
-            }
-        }
     }
 }

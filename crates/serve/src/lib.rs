@@ -23,6 +23,7 @@ mod fuzz;
 mod ids;
 mod keep;
 mod keys;
+mod latest_events;
 mod limits;
 mod mark;
 mod metrics;
@@ -30,6 +31,7 @@ mod moment;
 mod networks;
 mod operate;
 #[cfg(test)]
+mod notice;
 mod orders;
 mod outlook;
 mod policies;

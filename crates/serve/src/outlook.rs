@@ -150,7 +150,7 @@ pub(crate) struct Comparison {
     /// The increase of the day's profit, dollars.
     pub(crate) difference_usd: f64,
     /// Notices about the hypothetical events.
-    pub(crate) notices: Vec<String>,
+    pub(crate) notices: Vec<EventNotice>,
 }
 
 /// A policy with the name that it was asked for by.
@@ -330,7 +330,7 @@ impl WhatIf {
             changed.take(event, "", 0)?;
         }
         let told = changed.notices().filter(|(seq, _)| seq.is_some()).skip(before);
-        let notices = told.map(|(_, text)| text).collect();
+        let notices = told.map(|(_, notice)| notice).collect();
         let mut as_it_is = Outlook::in_time(day, ours, quick, patience)?;
         let what_if = Outlook::in_time(&mut changed, theirs, quick, patience)?;
         // With two different policies, the difference would not be the effect of the change.

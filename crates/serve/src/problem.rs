@@ -6,8 +6,10 @@ use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use utoipa::ToSchema;
 use vertifleet_core::Coded;
+use vertifleet_sim::live::ReportError;
 
 use crate::error::Error;
+use crate::latest_events::Happened;
 
 /// An error in an answer (RFC 9457).
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -26,6 +28,15 @@ pub(crate) struct Problem {
     /// The remedy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) hint: Option<String>,
+    /// The event of another client that came first, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) happened: Option<Happened>,
+    /// The number of the event that was to be corrected.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) event: Option<u64>,
+    /// The number of the later event that depends on it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) blocked_by: Option<u64>,
 }
 
 impl Problem {
@@ -33,6 +44,7 @@ impl Problem {
     pub(crate) fn of(error: &Error) -> Self {
         let status = error.status();
         let code = error.code().to_string();
+        let correction = correction(error);
         Self {
             kind: format!("urn:vertifleet:{code}"),
             title: status.canonical_reason().unwrap_or_default().to_owned(),
@@ -40,7 +52,30 @@ impl Problem {
             detail: error.to_string(),
             code,
             hint: error.hint().map(str::to_owned),
+            happened: happened(error).cloned(),
+            event: correction.map(|(event, _)| event),
+            blocked_by: correction.and_then(|(_, later)| later),
         }
+    }
+}
+
+fn happened(error: &Error) -> Option<&Happened> {
+    match error {
+        Error::InList { cause, .. } => happened(cause),
+        Error::Overtaken { happened, .. } => Some(happened),
+        _ => None,
+    }
+}
+
+/// The number of the event that cannot be corrected, and that of the later one.
+fn correction(error: &Error) -> Option<(u64, Option<u64>)> {
+    match error {
+        Error::InList { cause, .. } => correction(cause),
+        Error::CannotCorrect(ReportError::CannotCorrect { event, .. }) => Some((*event, None)),
+        Error::CannotCorrect(ReportError::NeededLater { event, later, .. }) => {
+            Some((*event, Some(*later)))
+        }
+        _ => None,
     }
 }
 

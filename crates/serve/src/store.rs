@@ -31,8 +31,8 @@ use crate::error::Error;
 
 /// The name of the database in the folder of the data.
 pub(crate) const DATABASE: &str = "vertifleet.db";
-/// The version of the tables. A store of a newer version is refused.
-const VERSION: &str = "5";
+/// The version of the tables and events. A store of a newer version is refused.
+const VERSION: &str = "6";
 
 /// The location of the data.
 #[derive(Debug, Clone, PartialEq, Eq)]

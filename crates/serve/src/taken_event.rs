@@ -11,6 +11,7 @@ use utoipa::ToSchema;
 use crate::event::Event;
 use crate::mark::EventMark;
 use crate::moment::is_by_calendar;
+use crate::notice::{self, EventNotice};
 
 /// A stored event.
 #[derive(Debug, Clone, PartialEq, Eq, ToSchema)]
@@ -29,7 +30,7 @@ pub(crate) struct TakenEvent {
     #[schema(rename = "event", value_type = Event)]
     pub(crate) body: String,
     /// Notices for people.
-    #[schema(value_type = Vec<String>)]
+    #[schema(value_type = Vec<EventNotice>)]
     pub(crate) notices: String,
 }
 
@@ -64,7 +65,7 @@ impl Serialize for TakenEvent {
             Some(event) => taken.serialize_field("event", &event)?,
             None => taken.serialize_field("event", quoted(&self.body)?)?,
         }
-        taken.serialize_field("notices", quoted(&self.notices)?)?;
+        taken.serialize_field("notices", quoted(&notice::stored(&self.notices))?)?;
         taken.end()
     }
 }

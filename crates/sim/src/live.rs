@@ -7,23 +7,29 @@
 //! of its scenario and its reports.
 
 mod charges;
+mod closed_routes;
+mod log;
+mod notice;
+mod possible;
+mod present_notices;
 mod remaining_day;
 mod report;
 mod reporter;
 mod take;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use vertifleet_core::{AircraftIx, Battery, Closure, Route, Scenario, Time, VertiportIx};
 
+use self::log::Accepted;
 use crate::{DayTotals, Decision, Imagined, Landed, Simulation, Trace, TraceRow, View};
 
+pub use closed_routes::ClosedRoute;
+pub use notice::Notice;
 pub use remaining_day::RemainingDay;
-pub use report::{Booking, Notice, Report, ReportError, Routes};
+pub use report::{Booking, Report, ReportError, Routes};
 pub use reporter::Reporter;
-
-/// An aircraft that should have departed or landed so long ago is overdue, seconds.
-const LATE_S: u32 = 300;
 
 /// A day that happens.
 #[derive(Debug, Clone)]
@@ -41,6 +47,10 @@ pub struct LiveDay {
     boarded: Vec<u32>,
     /// Closures whose end is known, those of the scenario among them, each one way.
     closures: Vec<Closure>,
+    /// Every report that was accepted, in order.
+    log: Vec<Accepted>,
+    /// The routes that are closed until they are reported open, with the time since when.
+    closed_since: BTreeMap<(VertiportIx, VertiportIx), Time>,
     /// Whether the account and the demand of the whole day have to be added up again.
     is_stale: bool,
 }
@@ -187,6 +197,8 @@ impl LiveDay {
             decisions: Vec::new(),
             boarded: vec![0; known.demand.cells()],
             closures: scenario.disturbances.closures.iter().flat_map(one_way).collect(),
+            log: Vec::new(),
+            closed_since: BTreeMap::new(),
             is_stale: false,
             known: known.without_surprises(),
         }
@@ -411,53 +423,10 @@ impl LiveDay {
         }
     }
 
-    /// When a route opens that is closed now, if that is known.
-    pub fn opens(&self, from: VertiportIx, to: VertiportIx) -> Option<Time> {
-        let in_force = |closure: &&Closure| {
-            (closure.route.from, closure.route.to) == (from, to)
-                && (closure.start..closure.end).contains(&self.now)
-        };
-        self.closures.iter().filter(in_force).map(|closure| closure.end).max()
-    }
-
     /// Passengers of a period who have been taken on board, `[from][to]` row by row. Those who
     /// waited into the next period count in their own.
     pub fn boarded_in(&self, period: usize) -> &[u32] {
         let pairs = self.scenario().vertiports.len().pow(2);
         &self.boarded[period * pairs..][..pairs]
-    }
-
-    /// Notices for people at present: vertiports that have more aircraft than stands, and aircraft
-    /// that are overdue.
-    pub fn notices(&self) -> impl Iterator<Item = Notice> + '_ {
-        let vertiports = VertiportIx::all(self.scenario().vertiports.len());
-        let crowded = vertiports.filter_map(|vertiport| self.more_than_stands(vertiport));
-        crowded.chain(self.aircraft().filter_map(|aircraft| self.overdue(aircraft)))
-    }
-
-    fn overdue(&self, aircraft: AircraftNow) -> Option<Notice> {
-        let (done, time) = match aircraft.phase {
-            Phase::Standing => return None,
-            Phase::SentOff { departs, .. } => ("departed", departs),
-            Phase::InTheAir { .. } => ("landed", aircraft.arrival),
-        };
-        let aircraft = self.scenario().aircraft[aircraft.aircraft.at()].id.clone();
-        (self.now > time + LATE_S).then_some(Notice::Overdue { aircraft, done, time })
-    }
-
-    fn more_than_stands(&self, vertiport: VertiportIx) -> Option<Notice> {
-        let stands = &self.known.stands;
-        let ((mut taken, mut limit), parked) = (
-            (stands.taken()[vertiport.at()], stands.limit()[vertiport.at()]),
-            stands.parked(vertiport),
-        );
-        if taken <= limit && parked.0 > parked.1 {
-            (taken, limit) = parked;
-        }
-        (taken > limit).then(|| Notice::MoreThanStands {
-            vertiport: self.scenario().vertiports[vertiport.at()].id.clone(),
-            taken,
-            stands: limit,
-        })
     }
 }

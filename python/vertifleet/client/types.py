@@ -10,273 +10,10 @@ from typing import Literal, TypeAlias
 from typing_extensions import NotRequired, TypedDict
 
 
-class Problem(TypedDict):
-    """An error in an answer (RFC 9457)."""
-
-    type: str
-    """Names the kind of error: `urn:vertifleet:` and the code."""
-    title: str
-    """The HTTP status in words."""
-    status: int
-    """The HTTP status."""
-    detail: str
-    """The cause of this error."""
-    code: str
-    """The stable code, which the index of errors explains."""
-    hint: NotRequired[str | None]
-    """The remedy."""
-
-
-Role: TypeAlias = Literal["read", "dispatch", "admin"]
-"""The role of a token. Each role includes the ones before it."""
-
-
-class ServiceInfo(TypedDict):
-    """The properties of the service, and the rights of the sender."""
-
-    version: str
-    """The version of the program."""
-    role: Role
-    """The role of the token: `read`, `dispatch` or `admin`."""
-    policy: str
-    """The policy that decides on a day if none is named."""
-    token: NotRequired[str | None]
-    """The name of the token that the request came with; null without tokens."""
-
-
 Moment: TypeAlias = str | int
 """A time of the day, as HH:MM:SS or as seconds since midnight, before 100:00:00; or in ISO 8601 with an
 offset, if the day has a date.
 """
-
-
-class DayProgress(TypedDict):
-    """The progress of a day."""
-
-    now: Moment
-    """The latest time that was reported."""
-    is_over: bool
-    """Whether nothing is left to decide and every aircraft is on the ground."""
-    waiting: int
-    """Aircraft that wait for a decision."""
-    profit_usd: float
-    """Profit of the flights that have been dispatched, less the fixed costs of the fleet; dollars."""
-
-
-class DayInfo(TypedDict):
-    """A day."""
-
-    id: str
-    """Its id."""
-    name: str
-    """Its display name."""
-    created_ms: int
-    """When it was made, milliseconds of the Unix clock."""
-    archived: bool
-    """Whether it is closed to writes."""
-    policy: str
-    """The default policy of its decisions."""
-    date: NotRequired[str | None]
-    """Its date, if it has one."""
-    progress: NotRequired[DayProgress | None]
-    """Its progress, for days that are listed with it and are not archived."""
-    seq: NotRequired[int | None]
-    """The number of its events, for a request that names the day."""
-    time_zone: NotRequired[str | None]
-    """The time zone of its clock, if it has a date."""
-
-
-class DayList(TypedDict):
-    """A list of days."""
-
-    days: list[DayInfo]
-    """The days, in the order in which they were made."""
-    next: NotRequired[str | None]
-    """The cursor of the next page, if there is one."""
-
-
-ForecastRow = TypedDict(
-    "ForecastRow",
-    {
-        # A time within the period, without a date.
-        "period": Moment,
-        # The vertiport of departure.
-        "from": str,
-        # The vertiport of destination.
-        "to": str,
-        # Their number.
-        "passengers": int,
-    },
-)
-"""Passengers who are expected to fly from one vertiport to another in one period."""
-
-
-class NewDay(TypedDict):
-    """A day to make, from a network or from a scenario."""
-
-    aircraft: NotRequired[Mapping[str, str]]
-    """The vertiports of aircraft in the morning, by the ids of the aircraft. The others stand where the
-    network or the scenario places them.
-    """
-    date: NotRequired[str | None]
-    """Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO 8601."""
-    forecast: NotRequired[list[ForecastRow] | None]
-    """The expected passengers, in place of those of the network or the scenario. A pair without a row has no
-    passengers.
-    """
-    name: NotRequired[str | None]
-    """The display name of the day; without it, the name of its scenario, or of its network with the date."""
-    network: NotRequired[str | None]
-    """A network that the program ships, or that was uploaded."""
-    policy: NotRequired[str | None]
-    """The default policy of its decisions."""
-    scenario: NotRequired[Mapping[str, object] | None]
-    """A whole scenario, in the format of scenario files."""
-    seed: NotRequired[int | None]
-    """The seed that draws the day from the network: its forecast, and the vertiports of aircraft in the
-    morning, unless they are given. 1 if it is absent.
-    """
-    time_zone: NotRequired[str | None]
-    """The time zone of its clock by its name in the IANA database; without it, that of the network."""
-
-
-Times: TypeAlias = Literal["clock", "iso"]
-"""The format of times in an answer."""
-
-RuleName: TypeAlias = Literal["out_of_range", "no_corridor", "closed", "no_stand_free", "charged_too_late"]
-"""A rule that forbids a flight."""
-
-
-class Impossible(TypedDict):
-    """The reason why an alternative is not possible."""
-
-    rule: RuleName
-    """The rule."""
-    reason: str
-    """The rule in words, with its numbers."""
-
-
-class Alternative(TypedDict):
-    """The result of flying to a vertiport."""
-
-    to: str
-    """The vertiport; the aircraft's own means hold."""
-    flight_profit_usd: float
-    """Profit of the flight itself, dollars; 0 for a hold."""
-    passengers: int
-    """Passengers on board."""
-    arrival: Moment
-    """When it would land."""
-    ready: Moment
-    """When it would be ready again."""
-    stands: int
-    """Stands there, or chargers if they are counted separately."""
-    stands_taken: int
-    """Aircraft that occupy them, standing there or on their way."""
-    impossible: NotRequired[Impossible | None]
-    """The reason why it is not possible; absent if it is."""
-    needs_kwh: NotRequired[float | None]
-    """What the battery needs for it to take off: the energy of the flight and the reserve, kWh; on days that
-    charge as needed.
-    """
-    passenger_price_usd: NotRequired[float | None]
-    """The price of carrying one passenger there now rather than later, dollars."""
-    stand_price_usd: NotRequired[float | None]
-    """The price of a stand there until the aircraft is ready, dollars."""
-    takeoff: NotRequired[Moment | None]
-    """When it would take off, on days that charge as needed; absent on others, and for a hold."""
-    value: NotRequired[float | None]
-    """The value that the policy compares its choices by: dollars for policies that price the rest of the day
-    or roll it out, dollars an hour for `greedy`. Absent if the policy did not consider this choice.
-    """
-    worth_usd: NotRequired[float | None]
-    """Worth at the day's bid prices, dollars: the flight's profit and the worth of being ready there, less
-    the prices of its passengers and its stand. Absent if the policy has no prices.
-    """
-
-
-class Proposal(TypedDict):
-    """A policy's proposal for an aircraft."""
-
-    aircraft: str
-    """The aircraft."""
-    at: str
-    """The vertiport where it stands."""
-    time: Moment
-    """The time of the decision."""
-    seq: int
-    """The number of the latest event that the proposal takes into account."""
-    to: str
-    """The vertiport to fly to; its own means hold."""
-    policy: str
-    """The policy that decided."""
-    took_us: int
-    """How long the decision took, microseconds."""
-    alternatives: list[Alternative]
-    """Every vertiport, in the order of the day: the result of flying there, or the reason why that is not
-    possible.
-    """
-    too_late: NotRequired[str | None]
-    """The requested policy, if it was not ready in time and another decided for it."""
-    weights_sha256: NotRequired[str | None]
-    """SHA-256 of its weight file, if it is a learned policy."""
-
-
-class NewDecision(TypedDict):
-    """A decision to be taken."""
-
-    aircraft: str
-    """The aircraft."""
-    deadline_ms: NotRequired[int | None]
-    """Time limit of the policy, milliseconds. If it is not ready then, a faster one decides."""
-    policy: NotRequired[str | None]
-    """The policy; without it, the day's."""
-    reason: NotRequired[str | None]
-    """Why a person chose."""
-    time: NotRequired[Moment | None]
-    """The time of the decision; without it, or if it is in the past, now."""
-    to: NotRequired[str | None]
-    """The vertiport, if a person chooses; without it, the policy does."""
-
-
-class TakenDecision(TypedDict):
-    """A decision that was taken."""
-
-    seq: int
-    """The number of its event."""
-    to: str
-    """The destination of the aircraft; its own vertiport means hold."""
-    proposal: NotRequired[Proposal | None]
-    """The proposal of the policy, with its reasons; null if a person chose."""
-
-
-PairDemand = TypedDict(
-    "PairDemand",
-    {
-        # Where they are.
-        "from": str,
-        # Where they want to go.
-        "to": str,
-        # The number of them who still want to fly.
-        "passengers": int,
-    },
-)
-"""Passengers of a pair."""
-
-
-class PeriodDemand(TypedDict):
-    """The passengers of a demand period who still want to fly: waiting ones if the period has begun, and
-    expected ones if it has not.
-    """
-
-    seq: int
-    """The number of the latest event."""
-    period: Moment
-    """The beginning of the period."""
-    has_begun: bool
-    """Whether the period has begun."""
-    pairs: list[PairDemand]
-    """The pairs with such passengers, in the order of the day's vertiports."""
 
 
 class ClockEvent(TypedDict):
@@ -456,6 +193,20 @@ class ReopenedEvent(TypedDict):
     """When it happened or became known. Without it, that is now: the latest time that was reported."""
 
 
+PairDemand = TypedDict(
+    "PairDemand",
+    {
+        # Where they are.
+        "from": str,
+        # Where they want to go.
+        "to": str,
+        # The number of them who still want to fly.
+        "passengers": int,
+    },
+)
+"""Passengers of a pair."""
+
+
 class DemandEvent(TypedDict):
     """The number of passengers who still want to fly in a period has changed, actual or forecast."""
 
@@ -507,6 +258,32 @@ CancelledEvent = TypedDict(
 """Passengers no longer want to fly."""
 
 
+class CorrectedEvent(TypedDict):
+    """An earlier event is taken back: the day is as if it had never been reported. The clock of the day may
+    run back then. Later events must be possible without it.
+    """
+
+    type: Literal["corrected"]
+    event: int
+    """The number of the event."""
+    reason: NotRequired[str | None]
+    """Why."""
+    time: NotRequired[Moment | None]
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
+
+
+class AcknowledgedEvent(TypedDict):
+    """People have seen an alert. The state lists it for all clients."""
+
+    type: Literal["acknowledged"]
+    alert: str
+    """The alert, by a name that clients agree on."""
+    reason: NotRequired[str | None]
+    """A comment."""
+    time: NotRequired[Moment | None]
+    """When it happened or became known. Without it, that is now: the latest time that was reported."""
+
+
 class StandsEvent(TypedDict):
     """The number of stands of a vertiport changes, or of chargers if they are counted separately."""
 
@@ -535,9 +312,300 @@ Event: TypeAlias = (
     | DemandEvent
     | BookedEvent
     | CancelledEvent
+    | CorrectedEvent
+    | AcknowledgedEvent
     | StandsEvent
 )
 """An event: something that happened, was decided or became known, and when."""
+
+
+class Happened(TypedDict):
+    """The event that made a request impossible."""
+
+    seq: int
+    """Its number."""
+    actor: str
+    """The name of the sender's token; empty without tokens."""
+    at_ms: int
+    """When the service stored it, milliseconds of the Unix clock."""
+    text: str
+    """The event in words."""
+    event: Event
+    """The event."""
+
+
+class Problem(TypedDict):
+    """An error in an answer (RFC 9457)."""
+
+    type: str
+    """Names the kind of error: `urn:vertifleet:` and the code."""
+    title: str
+    """The HTTP status in words."""
+    status: int
+    """The HTTP status."""
+    detail: str
+    """The cause of this error."""
+    code: str
+    """The stable code, which the index of errors explains."""
+    blocked_by: NotRequired[int | None]
+    """The number of the later event that depends on it."""
+    event: NotRequired[int | None]
+    """The number of the event that was to be corrected."""
+    happened: NotRequired[Happened | None]
+    """The event of another client that came first, if there is one."""
+    hint: NotRequired[str | None]
+    """The remedy."""
+
+
+Role: TypeAlias = Literal["read", "dispatch", "admin"]
+"""The role of a token. Each role includes the ones before it."""
+
+
+class ServiceInfo(TypedDict):
+    """The properties of the service, and the rights of the sender."""
+
+    version: str
+    """The version of the program."""
+    role: Role
+    """The role of the token: `read`, `dispatch` or `admin`."""
+    policy: str
+    """The policy that decides on a day if none is named."""
+    token: NotRequired[str | None]
+    """The name of the token that the request came with; null without tokens."""
+
+
+class DayProgress(TypedDict):
+    """The progress of a day."""
+
+    now: Moment
+    """The latest time that was reported."""
+    is_over: bool
+    """Whether nothing is left to decide and every aircraft is on the ground."""
+    waiting: int
+    """Aircraft that wait for a decision."""
+    profit_usd: float
+    """Profit of the flights that have been dispatched, less the fixed costs of the fleet; dollars."""
+
+
+class DayInfo(TypedDict):
+    """A day."""
+
+    id: str
+    """Its id."""
+    name: str
+    """Its display name."""
+    created_ms: int
+    """When it was made, milliseconds of the Unix clock."""
+    archived: bool
+    """Whether it is closed to writes."""
+    policy: str
+    """The default policy of its decisions."""
+    date: NotRequired[str | None]
+    """Its date, if it has one."""
+    progress: NotRequired[DayProgress | None]
+    """Its progress, for days that are listed with it and are not archived."""
+    seq: NotRequired[int | None]
+    """The number of its events, for a request that names the day."""
+    time_zone: NotRequired[str | None]
+    """The time zone of its clock, if it has a date."""
+
+
+class DayList(TypedDict):
+    """A list of days."""
+
+    days: list[DayInfo]
+    """The days, in the order in which they were made."""
+    next: NotRequired[str | None]
+    """The cursor of the next page, if there is one."""
+
+
+ForecastRow = TypedDict(
+    "ForecastRow",
+    {
+        # A time within the period, without a date.
+        "period": Moment,
+        # The vertiport of departure.
+        "from": str,
+        # The vertiport of destination.
+        "to": str,
+        # Their number.
+        "passengers": int,
+    },
+)
+"""Passengers who are expected to fly from one vertiport to another in one period."""
+
+
+class NewDay(TypedDict):
+    """A day to make, from a network or from a scenario."""
+
+    aircraft: NotRequired[Mapping[str, str] | None]
+    """The vertiports of aircraft in the morning, by the ids of the aircraft. The others stand where the
+    network or the scenario places them.
+    """
+    date: NotRequired[str | None]
+    """Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO 8601."""
+    forecast: NotRequired[list[ForecastRow] | None]
+    """The expected passengers, in place of those of the network or the scenario. A pair without a row has no
+    passengers.
+    """
+    name: NotRequired[str | None]
+    """The display name of the day; without it, the name of its scenario, or of its network with the date."""
+    network: NotRequired[str | None]
+    """A network that the program ships, or that was uploaded."""
+    policy: NotRequired[str | None]
+    """The default policy of its decisions."""
+    scenario: NotRequired[Mapping[str, object] | None]
+    """A whole scenario, in the format of scenario files."""
+    seed: NotRequired[int | None]
+    """The seed that draws the day from the network: its forecast, and the vertiports of aircraft in the
+    morning, unless they are given. 1 if it is absent.
+    """
+    time_zone: NotRequired[str | None]
+    """The time zone of its clock by its name in the IANA database; without it, that of the network."""
+
+
+Times: TypeAlias = Literal["clock", "iso"]
+"""The format of times in an answer."""
+
+RuleName: TypeAlias = Literal["out_of_range", "no_corridor", "closed", "no_stand_free", "charged_too_late"]
+"""A rule that forbids a flight."""
+
+
+class Impossible(TypedDict):
+    """The reason why an alternative is not possible."""
+
+    rule: RuleName
+    """The rule."""
+    reason: str
+    """The rule in words, with its numbers."""
+
+
+class Alternative(TypedDict):
+    """The result of flying to a vertiport."""
+
+    to: str
+    """The vertiport; the aircraft's own means hold."""
+    flight_profit_usd: float
+    """Profit of the flight itself, dollars; 0 for a hold."""
+    passengers: int
+    """Passengers on board."""
+    arrival: Moment
+    """When it would land."""
+    ready: Moment
+    """When it would be ready again."""
+    stands: int
+    """Stands there, or chargers if they are counted separately."""
+    stands_taken: int
+    """Aircraft that occupy them, standing there or on their way."""
+    impossible: NotRequired[Impossible | None]
+    """The reason why it is not possible; absent if it is."""
+    needs_kwh: NotRequired[float | None]
+    """What the battery needs for it to take off: the energy of the flight and the reserve, kWh; on days that
+    charge as needed.
+    """
+    passenger_price_usd: NotRequired[float | None]
+    """The price of carrying one passenger there now rather than later, dollars."""
+    stand_price_usd: NotRequired[float | None]
+    """The price of a stand there until the aircraft is ready, dollars."""
+    takeoff: NotRequired[Moment | None]
+    """When it would take off, on days that charge as needed; absent on others, and for a hold."""
+    value: NotRequired[float | None]
+    """The value that the policy compares its choices by: dollars for policies that price the rest of the day
+    or roll it out, dollars an hour for `greedy`. Absent if the policy did not consider this choice.
+    """
+    worth_usd: NotRequired[float | None]
+    """Worth at the day's bid prices, dollars: the flight's profit and the worth of being ready there, less
+    the prices of its passengers and its stand. Absent if the policy has no prices.
+    """
+
+
+class Proposal(TypedDict):
+    """A policy's proposal for an aircraft."""
+
+    aircraft: str
+    """The aircraft."""
+    at: str
+    """The vertiport where it stands."""
+    time: Moment
+    """The time of the decision."""
+    seq: int
+    """The number of the latest event that the proposal takes into account."""
+    to: str
+    """The vertiport to fly to; its own means hold."""
+    policy: str
+    """The policy that decided."""
+    took_us: int
+    """How long the decision took, microseconds."""
+    alternatives: list[Alternative]
+    """Every vertiport, in the order of the day: the result of flying there, or the reason why that is not
+    possible.
+    """
+    too_late: NotRequired[str | None]
+    """The requested policy, if it was not ready in time and another decided for it."""
+    weights_sha256: NotRequired[str | None]
+    """SHA-256 of its weight file, if it is a learned policy."""
+
+
+class NewDecision(TypedDict):
+    """A decision to be taken."""
+
+    aircraft: str
+    """The aircraft."""
+    deadline_ms: NotRequired[int | None]
+    """Time limit of the policy, milliseconds. If it is not ready then, a faster one decides."""
+    policy: NotRequired[str | None]
+    """The policy; without it, the day's."""
+    reason: NotRequired[str | None]
+    """Why a person chose."""
+    time: NotRequired[Moment | None]
+    """The time of the decision; without it, or if it is in the past, now."""
+    to: NotRequired[str | None]
+    """The vertiport, if a person chooses; without it, the policy does."""
+
+
+class EventNotice(TypedDict):
+    """A notice for people: a part of an event that they should look at. The event was accepted."""
+
+    code: str
+    """The kind: `more_than_stands`, `against_the_rules`, `departed_out_of_service`, `departed_unready`,
+    `departed_before_landing`, `without_energy`, `below_reserve`, `too_fast`, `charge_too_high`,
+    `ready_too_soon`, `diverted`, `not_flown`, `overdue`, or `other` in logs of earlier versions. Later
+    versions may add kinds.
+    """
+    text: str
+    """The notice in words."""
+    aircraft: NotRequired[str | None]
+    """The aircraft, if it is about one."""
+    vertiport: NotRequired[str | None]
+    """The vertiport, if it is about one."""
+
+
+class TakenDecision(TypedDict):
+    """A decision that was taken."""
+
+    seq: int
+    """The number of its event."""
+    to: str
+    """The destination of the aircraft; its own vertiport means hold."""
+    notices: list[EventNotice]
+    """Notices for people."""
+    proposal: NotRequired[Proposal | None]
+    """The proposal of the policy, with its reasons; null if a person chose."""
+
+
+class PeriodDemand(TypedDict):
+    """The passengers of a demand period who still want to fly: waiting ones if the period has begun, and
+    expected ones if it has not.
+    """
+
+    seq: int
+    """The number of the latest event."""
+    period: Moment
+    """The beginning of the period."""
+    has_begun: bool
+    """Whether the period has begun."""
+    pairs: list[PairDemand]
+    """The pairs with such passengers, in the order of the day's vertiports."""
 
 
 class TakenEvent(TypedDict):
@@ -555,7 +623,7 @@ class TakenEvent(TypedDict):
     """The name of the sender's token."""
     event: Event
     """The event."""
-    notices: list[str]
+    notices: list[EventNotice]
     """Notices for people."""
 
 
@@ -577,7 +645,7 @@ class Taken(TypedDict):
 
     seq: int
     """The number of the latest event."""
-    notices: list[list[str]]
+    notices: list[list[EventNotice]]
     """Notices for people."""
 
 
@@ -750,8 +818,8 @@ class AircraftState(TypedDict):
     flight: NotRequired[FlightState | None]
     """The flight that it was dispatched on, until it has landed."""
     lands_with_kwh: NotRequired[float | None]
-    """What its battery will hold when it lands, kWh, if it was dispatched; only on days that charge as
-    needed.
+    """What its battery will hold when it lands, kWh, if it was dispatched; below 0 if it lacks energy for its
+    flight. Only on days that charge as needed.
     """
     out_until: NotRequired[Moment | None]
     """When it is expected back in service, if that is known."""
@@ -779,13 +847,50 @@ class VertiportState(TypedDict):
     """The routes from here that are closed."""
 
 
+ClosureState = TypedDict(
+    "ClosureState",
+    {
+        # The vertiport of departure.
+        "from": str,
+        # The vertiport of destination.
+        "to": str,
+        # Since when it is closed, or when it will close.
+        "start": Moment,
+        # When it opens; null if only a report opens it.
+        "until": NotRequired[Moment | None],
+    },
+)
+"""A time in which a route is closed, in one direction."""
+
+
+class Acknowledgement(TypedDict):
+    """An alert that people have seen."""
+
+    alert: str
+    """The alert."""
+    seq: int
+    """The number of the event."""
+    actor: str
+    """The name of the sender's token; empty without tokens."""
+    time: Moment
+    """The time of the event."""
+    reason: NotRequired[str | None]
+    """The comment."""
+
+
 class NoticeState(TypedDict):
     """A notice for people."""
 
+    code: str
+    """The kind, as in the notices of events."""
     text: str
     """The notice in words."""
+    aircraft: NotRequired[str | None]
+    """The aircraft, if it is about one."""
     seq: NotRequired[int | None]
     """The event that it came with; null if it describes the current state."""
+    vertiport: NotRequired[str | None]
+    """The vertiport, if it is about one."""
 
 
 class DayState(TypedDict):
@@ -801,6 +906,12 @@ class DayState(TypedDict):
     """Every vertiport."""
     totals: Totals
     """The account so far."""
+    closures: list[ClosureState]
+    """The routes that are closed now, and those that are known to close later."""
+    acknowledged: list[Acknowledgement]
+    """The alerts that people have seen, each by its latest acknowledgement, the oldest first; the latest
+    1,000.
+    """
     notices: list[NoticeState]
     """Notices for people."""
 
@@ -823,13 +934,13 @@ StandCount: TypeAlias = int
 class WhatIf(TypedDict):
     """A changed day."""
 
-    aircraft: NotRequired[list[MoreAircraft]]
+    aircraft: NotRequired[list[MoreAircraft] | None]
     """Additional aircraft of the fleet from the morning on."""
-    events: NotRequired[list[Event]]
+    events: NotRequired[list[Event] | None]
     """Events that might happen now, in order."""
     policy: NotRequired[str | None]
     """The policy that would decide; without it, the day's."""
-    stands: NotRequired[Mapping[str, StandCount]]
+    stands: NotRequired[Mapping[str, StandCount] | None]
     """Numbers of stands (or of chargers if they are counted separately) of vertiports from the morning on."""
 
 
@@ -842,7 +953,7 @@ class Comparison(TypedDict):
     """The outlook with the change."""
     difference_usd: float
     """The increase of the day's profit, dollars."""
-    notices: list[str]
+    notices: list[EventNotice]
     """Notices about the hypothetical events."""
 
 
@@ -1121,7 +1232,7 @@ class NewStudy(TypedDict):
     """
     days: int
     """The number of days."""
-    bounds: NotRequired[bool]
+    bounds: NotRequired[bool | None]
     """Whether to prove an upper bound for every day, which takes long on large networks."""
     network: NotRequired[str | None]
     """A network that the program ships, or that was uploaded."""
@@ -1129,7 +1240,7 @@ class NewStudy(TypedDict):
     """The seed of the first day, which is that of `random` and `plan` too; with validation days, the number
     of the first. 1 if it is absent.
     """
-    split: NotRequired[Split]
+    split: NotRequired[Split | None]
     """The purpose of the days."""
     toml: NotRequired[str | None]
     """The text of a network file in place of a name. It is not stored."""

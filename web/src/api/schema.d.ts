@@ -557,6 +557,22 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /** @description An alert that people have seen. */
+        Acknowledgement: {
+            /** @description The name of the sender's token; empty without tokens. */
+            actor: string;
+            /** @description The alert. */
+            alert: string;
+            /** @description The comment. */
+            reason?: string | null;
+            /**
+             * Format: int64
+             * @description The number of the event.
+             */
+            seq: number;
+            /** @description The time of the event. */
+            time: components["schemas"]["Moment"];
+        };
         /** @description An aircraft. */
         AircraftState: {
             /** @description When it landed there or is expected to. */
@@ -571,8 +587,8 @@ export interface components {
             id: string;
             /**
              * Format: double
-             * @description What its battery will hold when it lands, kWh, if it was dispatched; only on days that
-             *     charge as needed.
+             * @description What its battery will hold when it lands, kWh, if it was dispatched; below 0 if it lacks
+             *     energy for its flight. Only on days that charge as needed.
              */
             lands_with_kwh?: number | null;
             /** @description Whether it waits for a decision. */
@@ -653,6 +669,16 @@ export interface components {
             to: string;
             until?: components["schemas"]["Moment"] | null;
         };
+        /** @description A time in which a route is closed, in one direction. */
+        ClosureState: {
+            /** @description The vertiport of departure. */
+            from: string;
+            /** @description Since when it is closed, or when it will close. */
+            start: components["schemas"]["Moment"];
+            /** @description The vertiport of destination. */
+            to: string;
+            until?: components["schemas"]["Moment"] | null;
+        };
         /** @description The effect of a change. */
         Comparison: {
             /** @description The outlook without the change, by the day's policy. */
@@ -663,7 +689,7 @@ export interface components {
              */
             difference_usd: number;
             /** @description Notices about the hypothetical events. */
-            notices: string[];
+            notices: components["schemas"]["EventNotice"][];
             /** @description The outlook with the change. */
             what_if: components["schemas"]["Outlook"];
         };
@@ -716,8 +742,15 @@ export interface components {
         };
         /** @description The state of a day. */
         DayState: {
+            /**
+             * @description The alerts that people have seen, each by its latest acknowledgement, the oldest first; the
+             *     latest 1,000.
+             */
+            acknowledged: components["schemas"]["Acknowledgement"][];
             /** @description Every aircraft. */
             aircraft: components["schemas"]["AircraftState"][];
+            /** @description The routes that are closed now, and those that are known to close later. */
+            closures: components["schemas"]["ClosureState"][];
             /** @description Notices for people. */
             notices: components["schemas"]["NoticeState"][];
             /** @description The latest time that was reported. */
@@ -963,6 +996,25 @@ export interface components {
             type: "cancelled";
         } | {
             /**
+             * Format: int64
+             * @description The number of the event.
+             */
+            event: number;
+            /** @description Why. */
+            reason?: string | null;
+            time?: components["schemas"]["Moment"] | null;
+            /** @enum {string} */
+            type: "corrected";
+        } | {
+            /** @description The alert, by a name that clients agree on. */
+            alert: string;
+            /** @description A comment. */
+            reason?: string | null;
+            time?: components["schemas"]["Moment"] | null;
+            /** @enum {string} */
+            type: "acknowledged";
+        } | {
+            /**
              * Format: int32
              * @description The number.
              */
@@ -983,6 +1035,22 @@ export interface components {
              *     MiB.
              */
             next?: number | null;
+        };
+        /** @description A notice for people: a part of an event that they should look at. The event was accepted. */
+        EventNotice: {
+            /** @description The aircraft, if it is about one. */
+            aircraft?: string | null;
+            /**
+             * @description The kind: `more_than_stands`, `against_the_rules`, `departed_out_of_service`,
+             *     `departed_unready`, `departed_before_landing`, `without_energy`, `below_reserve`, `too_fast`,
+             *     `charge_too_high`, `ready_too_soon`, `diverted`, `not_flown`, `overdue`, or `other` in logs of
+             *     earlier versions. Later versions may add kinds.
+             */
+            code: string;
+            /** @description The notice in words. */
+            text: string;
+            /** @description The vertiport, if it is about one. */
+            vertiport?: string | null;
         };
         /** @description A flight that has not landed. */
         FlightState: {
@@ -1012,6 +1080,25 @@ export interface components {
             period: components["schemas"]["Moment"];
             /** @description The vertiport of destination. */
             to: string;
+        };
+        /** @description The event that made a request impossible. */
+        Happened: {
+            /** @description The name of the sender's token; empty without tokens. */
+            actor: string;
+            /**
+             * Format: int64
+             * @description When the service stored it, milliseconds of the Unix clock.
+             */
+            at_ms: number;
+            /** @description The event. */
+            event: components["schemas"]["Event"];
+            /**
+             * Format: int64
+             * @description Its number.
+             */
+            seq: number;
+            /** @description The event in words. */
+            text: string;
         };
         /** @description The reason why an alternative is not possible. */
         Impossible: {
@@ -1119,7 +1206,7 @@ export interface components {
              */
             aircraft?: {
                 [key: string]: string;
-            };
+            } | null;
             /**
              * @description Its date, for example `2026-11-23`, from 1970 to 2199. Times may then be written in ISO
              *     8601.
@@ -1178,7 +1265,7 @@ export interface components {
         /** @description A study to make. */
         NewStudy: {
             /** @description Whether to prove an upper bound for every day, which takes long on large networks. */
-            bounds?: boolean;
+            bounds?: boolean | null;
             /**
              * Format: int64
              * @description The number of days.
@@ -1197,13 +1284,16 @@ export interface components {
              *     the number of the first. 1 if it is absent.
              */
             seed?: number | null;
-            /** @description The purpose of the days. */
-            split?: components["schemas"]["Split"];
+            split?: components["schemas"]["Split"] | null;
             /** @description The text of a network file in place of a name. It is not stored. */
             toml?: string | null;
         };
         /** @description A notice for people. */
         NoticeState: {
+            /** @description The aircraft, if it is about one. */
+            aircraft?: string | null;
+            /** @description The kind, as in the notices of events. */
+            code: string;
             /**
              * Format: int64
              * @description The event that it came with; null if it describes the current state.
@@ -1211,6 +1301,8 @@ export interface components {
             seq?: number | null;
             /** @description The notice in words. */
             text: string;
+            /** @description The vertiport, if it is about one. */
+            vertiport?: string | null;
         };
         /** @description One event, or several that are applied together or not at all. */
         OneOrMore: components["schemas"]["Event"][] | components["schemas"]["Event"];
@@ -1400,10 +1492,21 @@ export interface components {
         };
         /** @description An error in an answer (RFC 9457). */
         Problem: {
+            /**
+             * Format: int64
+             * @description The number of the later event that depends on it.
+             */
+            blocked_by?: number | null;
             /** @description The stable code, which the index of errors explains. */
             code: string;
             /** @description The cause of this error. */
             detail: string;
+            /**
+             * Format: int64
+             * @description The number of the event that was to be corrected.
+             */
+            event?: number | null;
+            happened?: components["schemas"]["Happened"] | null;
             /** @description The remedy. */
             hint?: string | null;
             /**
@@ -1595,7 +1698,7 @@ export interface components {
         /** @description The result of appending events. */
         Taken: {
             /** @description Notices for people. */
-            notices: string[][];
+            notices: components["schemas"]["EventNotice"][][];
             /**
              * Format: int64
              * @description The number of the latest event.
@@ -1604,6 +1707,8 @@ export interface components {
         };
         /** @description A decision that was taken. */
         TakenDecision: {
+            /** @description Notices for people. */
+            notices: components["schemas"]["EventNotice"][];
             proposal?: components["schemas"]["Proposal"] | null;
             /**
              * Format: int64
@@ -1630,7 +1735,7 @@ export interface components {
              */
             mark: string;
             /** @description Notices for people. */
-            notices: string[];
+            notices: components["schemas"]["EventNotice"][];
             /**
              * Format: int64
              * @description Its number.
@@ -1733,9 +1838,9 @@ export interface components {
         /** @description A changed day. */
         WhatIf: {
             /** @description Additional aircraft of the fleet from the morning on. */
-            aircraft?: components["schemas"]["MoreAircraft"][];
+            aircraft?: components["schemas"]["MoreAircraft"][] | null;
             /** @description Events that might happen now, in order. */
-            events?: components["schemas"]["Event"][];
+            events?: components["schemas"]["Event"][] | null;
             /** @description The policy that would decide; without it, the day's. */
             policy?: string | null;
             /**
@@ -1744,7 +1849,7 @@ export interface components {
              */
             stands?: {
                 [key: string]: components["schemas"]["StandCount"];
-            };
+            } | null;
         };
     };
     responses: never;
@@ -2048,7 +2153,7 @@ export interface operations {
                 /** @description The policy; without it, the day's. */
                 policy?: string;
                 /** @description The time of the decision; without it, or if it is in the past, now. */
-                time?: string;
+                time?: string | number;
                 /**
                  * @description Time limit of the answer, milliseconds. If the policy is not ready then, a faster one
                  *     answers.
@@ -2166,7 +2271,7 @@ export interface operations {
         parameters: {
             query?: {
                 /** @description The beginning of a demand period; without it, the current one. */
-                period?: string;
+                period?: string | number;
                 /** @description How times are written in the answer. */
                 times?: components["schemas"]["Times"];
             };

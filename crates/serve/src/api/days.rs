@@ -7,22 +7,17 @@ use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
-use vertifleet_core::VertiportIx;
-use vertifleet_sim::DayTotals;
-use vertifleet_sim::live::{LiveDay, Phase};
+use vertifleet_sim::live::LiveDay;
 
-use super::answer::{Times, at_event, json, written};
-use super::extract::{EventNumber, Named, PageSize, UPLOAD, Validated, parse};
+use super::answer::{at_event, json, written};
+use super::extract::{Named, PageSize, UPLOAD, Validated, parse};
 use super::new_day::NewDay;
 use super::write::Idempotent;
-use crate::access::Actor;
 use crate::clock::now_ms;
 use crate::day_cell::DayCell;
 use crate::days::Writer;
-use crate::dispatch_day::DispatchDay;
 use crate::error::Error;
 use crate::moment::Moment;
-use crate::outlook::Totals;
 use crate::service::Service;
 use crate::store::StoredDay;
 
@@ -93,114 +88,6 @@ pub(crate) struct Listed {
     /// has not been used for long from the store for this.
     #[serde(default)]
     progress: bool,
-}
-
-/// The state of a day.
-#[derive(Debug, Serialize, ToSchema)]
-pub(crate) struct DayState {
-    /// The number of the latest event.
-    seq: u64,
-    /// The latest time that was reported.
-    now: Moment,
-    /// Every aircraft.
-    aircraft: Vec<AircraftState>,
-    /// Every vertiport.
-    vertiports: Vec<VertiportState>,
-    /// The account so far.
-    #[schema(value_type = Totals)]
-    totals: DayTotals,
-    /// Notices for people.
-    notices: Vec<NoticeState>,
-}
-
-/// An aircraft.
-#[derive(Debug, Serialize, ToSchema)]
-pub(crate) struct AircraftState {
-    /// Its id.
-    id: String,
-    /// Its current phase.
-    phase: PhaseName,
-    /// The vertiport where it stands or will land.
-    place: String,
-    /// When it landed there or is expected to.
-    arrival: Moment,
-    /// When it is expected to be ready.
-    ready: Moment,
-    /// Whether it waits for a decision.
-    needs_decision: bool,
-    /// Whether it is out of service.
-    out_of_service: bool,
-    /// When it is expected back in service, if that is known.
-    out_until: Option<Moment>,
-    /// What its battery holds now, kWh; only on the ground, on days that charge as needed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    charge_kwh: Option<f64>,
-    /// What its battery will hold when it lands, kWh, if it was dispatched; only on days that
-    /// charge as needed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    lands_with_kwh: Option<f64>,
-    /// The flight that it was dispatched on, until it has landed.
-    flight: Option<FlightState>,
-}
-
-/// The phase of an aircraft.
-#[derive(Debug, Clone, Copy, Serialize, ToSchema)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum PhaseName {
-    /// It stands at its vertiport and charges, is ready or holds.
-    Standing,
-    /// It has been dispatched and has not departed.
-    SentOff,
-    /// It is in the air.
-    InTheAir,
-}
-
-/// A flight that has not landed.
-#[derive(Debug, Serialize, ToSchema)]
-pub(crate) struct FlightState {
-    /// The vertiport of departure.
-    from: String,
-    /// The vertiport of destination.
-    to: String,
-    /// When the decision was taken.
-    decided: Moment,
-    /// When the battery suffices, so that it takes off unless it is delayed; only on days that
-    /// charge as needed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    takeoff: Option<Moment>,
-    /// Passengers on board.
-    passengers: u16,
-}
-
-/// A route that is closed to new flights.
-#[derive(Debug, Serialize, ToSchema)]
-pub(crate) struct ClosedRoute {
-    /// Its destination.
-    to: String,
-    /// When it opens, if that is known.
-    until: Option<Moment>,
-}
-
-/// A vertiport.
-#[derive(Debug, Serialize, ToSchema)]
-pub(crate) struct VertiportState {
-    /// Its id.
-    id: String,
-    /// Its stands, or its chargers if they are counted separately.
-    stands: u16,
-    /// Aircraft that occupy them, standing there or on their way.
-    taken: u16,
-    /// The routes from here that are closed.
-    closed: Vec<ClosedRoute>,
-}
-
-/// A notice for people.
-#[derive(Debug, Serialize, ToSchema)]
-pub(crate) struct NoticeState {
-    /// The event that it came with; null if it describes the current state.
-    seq: Option<u64>,
-    /// The notice in words.
-    text: String,
 }
 
 impl DayInfo {
@@ -349,96 +236,6 @@ pub(super) async fn delete(
 ) -> Result<StatusCode, Error> {
     service.days.delete(&day, &writer).await?;
     Ok(StatusCode::NO_CONTENT)
-}
-
-/// The query of a state.
-#[derive(Debug, Deserialize, IntoParams)]
-#[into_params(parameter_in = Query)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct At {
-    /// The number of the event after which the state is read; without it, the latest. If the day
-    /// has no such event, the answer is 404 (V602).
-    #[param(inline)]
-    seq: Option<EventNumber>,
-    /// How times are written in the answer.
-    #[serde(default)]
-    times: Times,
-}
-
-/// The state of a day, now or after any of its events.
-#[utoipa::path(operation_id = "day_state", get, path = "/v1/days/{day}/state", tag = "days", params(("day" = String, Path), At), responses((status = 200, body = DayState)))]
-pub(super) async fn state(
-    State(service): State<Arc<Service>>,
-    Named(day): Named<String>,
-    actor: Actor,
-    Validated(at): Validated<At>,
-) -> Result<Response, Error> {
-    let day = service.days.get(&day).await?;
-    let state = match at.seq {
-        None => DayState::of(&mut day.state()),
-        Some(EventNumber(seq)) => DayState::of(&mut service.days.at(&actor, &day, seq).await?),
-    };
-    at.times.answer(&day, state.seq, &state).await
-}
-
-/// The closed routes from each vertiport, with the time at which each opens.
-fn closed(live: &mut LiveDay) -> Vec<Vec<(VertiportIx, Option<Moment>)>> {
-    let all = VertiportIx::all(live.scenario().vertiports.len());
-    let masks: Vec<_> = all.clone().map(|from| live.view().closed(from)).collect();
-    let opens = |from, to| live.opens(from, to).map(Moment::from);
-    all.zip(masks)
-        .map(|(from, mask)| mask.iter().map(|to| (to, opens(from, to))).collect())
-        .collect()
-}
-
-impl DayState {
-    fn of(day: &mut DispatchDay) -> Self {
-        let notices = day.notices().map(|(seq, text)| NoticeState { seq, text }).collect();
-        let (seq, live) = (day.seq(), day.live_mut());
-        let scenario = Arc::clone(live.scenario());
-        let id = |vertiport: VertiportIx| scenario.vertiports[vertiport.at()].id.clone();
-        let aircraft = live
-            .aircraft()
-            .map(|now| AircraftState {
-                id: scenario.aircraft[now.aircraft.at()].id.clone(),
-                phase: match now.phase {
-                    Phase::Standing => PhaseName::Standing,
-                    Phase::SentOff { .. } => PhaseName::SentOff,
-                    Phase::InTheAir { .. } => PhaseName::InTheAir,
-                },
-                place: id(now.place),
-                arrival: now.arrival.into(),
-                ready: now.ready.into(),
-                needs_decision: now.needs_decision,
-                out_of_service: now.is_out,
-                out_until: now.out_until.map(Moment::from),
-                charge_kwh: now.charge_kwh,
-                lands_with_kwh: now.lands_with_kwh,
-                flight: live.flight(now.aircraft).map(|row| FlightState {
-                    from: id(row.from),
-                    to: id(row.to),
-                    decided: row.time.into(),
-                    takeoff: now.lands_with_kwh.map(|_| row.takeoff.into()),
-                    passengers: row.passengers,
-                }),
-            })
-            .collect();
-        let totals = live.totals();
-        let closed = closed(live);
-        let view = live.view();
-        let vertiports = VertiportIx::all(view.vertiports())
-            .map(|vertiport| VertiportState {
-                id: id(vertiport),
-                stands: view.stands(vertiport),
-                taken: view.stands_taken()[vertiport.at()],
-                closed: closed[vertiport.at()]
-                    .iter()
-                    .map(|&(to, until)| ClosedRoute { to: id(to), until })
-                    .collect(),
-            })
-            .collect();
-        Self { seq, now: live.now().into(), aircraft, vertiports, totals, notices }
-    }
 }
 
 /// The scenario at the beginning of the day, in the format of scenario files.

@@ -7,10 +7,12 @@ use axum::extract::State;
 use axum::http::StatusCode;
 use axum::response::Response;
 use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
 use vertifleet_core::Stop;
 
 use super::answer::{Times, at_event};
+use super::events::notices_of;
 use super::extract::{Named, Validated, parse};
 use super::write::Idempotent;
 use crate::access::Actor;
@@ -20,6 +22,7 @@ use crate::decide::Proposal;
 use crate::error::Error;
 use crate::event::{Event, EventKind, reason};
 use crate::moment::{Moment, by_calendar};
+use crate::notice::EventNotice;
 use crate::service::Service;
 use crate::taken_event::TakenEvent;
 
@@ -88,6 +91,9 @@ pub(crate) struct TakenDecision {
     /// The destination of the aircraft; its own vertiport means hold.
     to: String,
     /// The proposal of the policy, with its reasons; null if a person chose.
+    /// Notices for people.
+    #[schema(value_type = Vec<EventNotice>)]
+    notices: Box<RawValue>,
     proposal: Option<Proposal>,
 }
 
@@ -129,7 +135,11 @@ pub(super) async fn decide(
     let day = service.days.get(&day).await?;
     let asked: NewDecision = by_calendar(day.calendar(), || parse(&body))?;
     // Skip the evaluation if the day has advanced.
-    writer.check(day.state().seq())?;
+    {
+        let state = day.state();
+        let explained = |moved| state.latest().explain_decision(moved, &asked.aircraft);
+        writer.check(state.seq()).map_err(explained)?;
+    }
     let taken = match asked.to.clone() {
         Some(to) => by_hand(&service, &day, writer, asked, to).await?,
         None => by_policy(&service, &day, writer, asked).await?,
@@ -204,6 +214,7 @@ async fn take(
         seq: last_seq(events),
         to: to.clone(),
         proposal: proposal.clone(),
+        notices: notices_of(&events[0]),
     };
     service.days.append(day, writer, vec![event], answer).await
 }

@@ -12,7 +12,8 @@ use utoipa::{Modify, OpenApi, openapi as description};
 use super::answer::Times;
 use super::events::MOST_EVENTS;
 use super::{
-    days, decisions, demand, events, ledger, networks, outlooks, policies, service, stream, studies,
+    day_state, days, decisions, demand, events, ledger, networks, outlooks, policies, service,
+    stream, studies,
 };
 use crate::problem::Problem;
 
@@ -27,7 +28,7 @@ use crate::problem::Problem;
     modifiers(&Everywhere),
     components(schemas(Problem, Times)),
     paths(
-        service::info, service::healthz, service::readyz, service::metrics, service::described, days::list, days::create, days::read, days::archive, days::unarchive, days::delete, days::state,
+        service::info, service::healthz, service::readyz, service::metrics, service::described, days::list, days::create, days::read, days::archive, days::unarchive, days::delete, day_state::state,
         days::scenario, days::trace, demand::demand, ledger::ledger, events::list, events::append, decisions::propose, decisions::decide,
         outlooks::outlook, outlooks::what_if, stream::stream, networks::list, networks::read,
         networks::put, networks::delete, networks::validate, policies::list, policies::read,

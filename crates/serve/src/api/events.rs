@@ -17,6 +17,7 @@ use crate::days::last_seq;
 use crate::error::Error;
 use crate::event::{Event, EventKind};
 use crate::moment::by_calendar;
+use crate::notice::EventNotice;
 use crate::service::Service;
 use crate::taken_event::TakenEvent;
 
@@ -90,19 +91,22 @@ pub(crate) struct Taken {
     /// The number of the latest event.
     seq: u64,
     /// Notices for people.
-    #[schema(value_type = Vec<Vec<String>>)]
+    #[schema(value_type = Vec<Vec<EventNotice>>)]
     notices: Vec<Box<RawValue>>,
 }
 
 impl Taken {
     fn of(events: &[TakenEvent]) -> Self {
-        let raw = |event: &TakenEvent| RawValue::from_string(event.notices.clone());
-        let notices = events.iter().map(|event| raw(event).expect("it was written as JSON"));
-        Self { seq: last_seq(events), notices: notices.collect() }
+        Self { seq: last_seq(events), notices: events.iter().map(notices_of).collect() }
     }
 }
 
 /// Events of a day.
+/// The notices of a new event.
+pub(super) fn notices_of(event: &TakenEvent) -> Box<RawValue> {
+    RawValue::from_string(event.notices.clone()).expect("it was written as JSON")
+}
+
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct EventList {
     /// The events, in order.

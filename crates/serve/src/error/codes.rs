@@ -9,7 +9,7 @@ impl Coded for Error {
         Code(match self {
             Self::Core(error) => return error.code(),
             Self::Study(error) => return error.code(),
-            Self::InList { cause, .. } => return cause.code(),
+            Self::InList { cause, .. } | Self::Overtaken { cause, .. } => return cause.code(),
             Self::BadRequest { .. } => 601,
             Self::NotFound { .. } | Self::NoSuchEvent { .. } => 602,
             Self::UnknownId { .. } => 603,
@@ -41,6 +41,7 @@ impl Coded for Error {
             Self::NameTaken { .. } => 629,
             Self::PolicyInUse { .. } => 630,
             Self::OtherLog { .. } => 631,
+            Self::CannotCorrect(_) => 632,
         })
     }
 
@@ -48,7 +49,7 @@ impl Coded for Error {
         match self {
             Self::Core(error) => error.hint(),
             Self::Study(error) => error.hint(),
-            Self::InList { cause, .. } => cause.hint(),
+            Self::InList { cause, .. } | Self::Overtaken { cause, .. } => cause.hint(),
             Self::Moved { .. } => Some("read the day again, and decide again"),
             Self::ReportError(_) => {
                 Some("if the event did happen, report first the events that led to it")

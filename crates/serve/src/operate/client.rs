@@ -1,6 +1,6 @@
 //! The operator's client: every write has a key and is repeated until it is answered.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 use std::thread;
@@ -110,6 +110,8 @@ pub(super) struct Client {
     /// The number of the latest event that was received, and the later ones that the operator sent.
     heard: u64,
     own: BTreeSet<u64>,
+    /// The aircraft of the decisions that were received, by the numbers of their events.
+    decided: HashMap<u64, String>,
     /// The value of the header with the token.
     bearer: Option<String>,
     ids: Ids,
@@ -140,6 +142,7 @@ impl Client {
             sent_again: 0,
             heard: 0,
             own: BTreeSet::new(),
+            decided: HashMap::new(),
             bearer: operation.token.as_ref().map(|token| format!("Bearer {token}")),
             ids: Ids::of(&operation.day),
         })
@@ -206,8 +209,16 @@ impl Client {
                 continue;
             }
             heard.push(match event.what {
-                EventKind::Decided { aircraft, to, .. } => Heard::Decided { aircraft, to },
+                EventKind::Decided { aircraft, to, .. } => {
+                    self.decided.insert(seq, aircraft.clone());
+                    Heard::Decided { aircraft, to }
+                }
                 EventKind::Undone { aircraft, .. } => Heard::Undone { aircraft },
+                // A corrected decision is undone too; it cannot have departed.
+                EventKind::Corrected { event, .. } => match self.decided.remove(&event) {
+                    Some(aircraft) => Heard::Undone { aircraft },
+                    None => Heard::Other,
+                },
                 _ => Heard::Other,
             });
         }

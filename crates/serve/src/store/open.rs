@@ -53,7 +53,8 @@ const ONE_NAME: &str =
 /// The lock of PostgreSQL under which tables are created: the letters of `fleet`.
 const LOCK: i64 = 0x66_6c65_6574;
 
-/// The upgrades of older stores, each with the last version that needs it.
+/// The upgrades of older stores, each with the last version that needs it. Version 6 only adds kinds
+/// of events, so that earlier programs refuse the store instead of calling its logs damaged.
 const ADDED_AFTER: [(&str, &str); 10] = [
     ("1", "ALTER TABLE days ADD COLUMN date TEXT NOT NULL DEFAULT ''"),
     ("1", "ALTER TABLE days ADD COLUMN time_zone TEXT NOT NULL DEFAULT ''"),
@@ -127,12 +128,12 @@ async fn bring_up_to_date(database: &mut AnyConnection) -> Result<(), Error> {
     if found == VERSION {
         return Ok(());
     }
-    if !ADDED_AFTER.iter().any(|(version, _)| *version == found) {
+    // Versions have one digit, so their order is that of their texts.
+    if !(found.len() == 1 && ("1"..VERSION).contains(&&*found)) {
         let rule =
             format!("it is of version {found:?}, and this program reads version {VERSION:?}");
         return Err(Error::ForeignData { rule });
     }
-    // Versions have one digit, so their order is that of their texts.
     for (_, statement) in ADDED_AFTER.iter().filter(|(version, _)| *version >= &*found) {
         query(*statement).execute(&mut *database).await?;
     }

@@ -120,7 +120,7 @@ fn reports_that_break_rules_are_accepted_with_a_lasting_notice() {
     let fewer = json!({"type": "stands", "vertiport": "V1", "stands": 0});
     let taken = service.event(&day, &fewer).json;
     assert!(
-        taken["notices"][0][0].as_str().is_some_and(|text| text.contains("0 stands")),
+        taken["notices"][0][0]["text"].as_str().is_some_and(|text| text.contains("0 stands")),
         "{taken}"
     );
     let state = service.state(&day);
@@ -420,7 +420,7 @@ fn events_in_the_past_are_refused_and_forbidden_ones_have_a_notice() {
     let day = service.new_day("greedy");
     let report = |event: Value| service.event(&day, &event);
     let notice = |answer: &crate::running::Answer| {
-        answer.json["notices"][0][0].as_str().unwrap_or_default().to_owned()
+        answer.json["notices"][0][0]["text"].as_str().unwrap_or_default().to_owned()
     };
     assert_eq!(report(json!({"type": "clock", "time": "09:00:00"})).status, 201);
     let all = json!({"vertiport": "V1"});

@@ -21,23 +21,36 @@ impl LiveDay {
         Some(charge_mwh as f64 / 1e6)
     }
 
-    /// What the battery of an aircraft on its way will hold when it lands, kWh.
+    /// What the battery of an aircraft on its way will hold when it lands, kWh; below 0, what it
+    /// lacks.
     pub(super) fn lands_with_kwh(&self, aircraft: AircraftIx) -> Option<f64> {
-        let is_on_its_way = self.aircraft[aircraft.at()].phase != Phase::Standing;
-        let batteries = &self.known.batteries;
-        (is_on_its_way && !batteries.are_always_full())
-            .then(|| batteries.landed(aircraft).mwh as f64 / 1e6)
+        if self.known.batteries.are_always_full() {
+            return None;
+        }
+        let (flight, takeoff) = match self.aircraft[aircraft.at()].phase {
+            Phase::Standing => return None,
+            Phase::SentOff { flight, departs } => (flight, departs),
+            Phase::InTheAir { flight, departed } => (flight, departed),
+        };
+        let charged_mwh = self.charge_before_mwh(flight, takeoff);
+        let flight_mwh = whole_mwh(self.decisions[flight].row.energy_kwh);
+        Some(if charged_mwh < flight_mwh {
+            -((flight_mwh - charged_mwh) as f64 / 1e6)
+        } else {
+            (charged_mwh - flight_mwh) as f64 / 1e6
+        })
     }
 
     /// The charge at a time before the take-off of a flight, mWh.
-    fn charge_before_mwh(&self, flight: usize, time: Time) -> u64 {
+    pub(super) fn charge_before_mwh(&self, flight: usize, time: Time) -> u64 {
         let LiveDecision { row, before, .. } = &self.decisions[flight];
         let kind = self.scenario().aircraft[row.aircraft.at()].kind;
         self.known.legs.charge_mwh(kind, row.from, before.landed(), time)
     }
 
     /// Enters the charge with which a flight lands that takes off at a time. Nothing is entered on
-    /// days that charge to full.
+    /// days that charge to full. A battery that lacks energy is empty when it lands; the report of
+    /// such a take-off has a notice.
     pub(super) fn charge_until(&self, batteries: &mut Batteries, flight: usize, takeoff: Time) {
         if batteries.are_always_full() {
             return;

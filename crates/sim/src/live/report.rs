@@ -103,6 +103,13 @@ pub enum Report {
         /// The seats.
         booking: Booking,
     },
+    /// People have seen an alert; nothing else is known.
+    Acknowledged,
+    /// An earlier report is taken back: the day is as if it had never been made.
+    Corrected {
+        /// The number of the report, from 1.
+        event: u64,
+    },
     /// A vertiport has another number of stands, or of chargers where they are counted apart.
     Stands {
         /// The vertiport.
@@ -110,6 +117,32 @@ pub enum Report {
         /// The number.
         stands: u16,
     },
+}
+
+impl Report {
+    /// The aircraft that it is about, if it is about one.
+    pub fn aircraft(&self) -> Option<AircraftIx> {
+        match *self {
+            Self::Decided { aircraft, .. }
+            | Self::Undone { aircraft }
+            | Self::Departed { aircraft, .. }
+            | Self::Landed { aircraft, .. }
+            | Self::Charging { aircraft, .. }
+            | Self::Ready { aircraft }
+            | Self::Delayed { aircraft, .. }
+            | Self::OutOfService { aircraft, .. }
+            | Self::BackInService { aircraft } => Some(aircraft),
+            Self::Clock
+            | Self::Closed { .. }
+            | Self::Reopened { .. }
+            | Self::Demand { .. }
+            | Self::Booked { .. }
+            | Self::Cancelled { .. }
+            | Self::Acknowledged
+            | Self::Corrected { .. }
+            | Self::Stands { .. } => None,
+        }
+    }
 }
 
 /// Seats of a period from one vertiport to another.
@@ -150,72 +183,6 @@ impl Routes {
                 .collect(),
         }
     }
-}
-
-/// Something about a report that people should look at. The report was accepted.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Notice {
-    /// A vertiport has more aircraft than stands.
-    #[error(
-        "vertiport {vertiport:?} has {taken} aircraft on its {stands} stands or on their way there"
-    )]
-    MoreThanStands {
-        /// The vertiport.
-        vertiport: String,
-        /// Number of aircraft that stand there or are on their way.
-        taken: u16,
-        /// Number of stands, or of chargers where they are counted apart.
-        stands: u16,
-    },
-    /// An aircraft left for a vertiport that no decision could have sent it to.
-    #[error("{0}; the departure is recorded despite the violation")]
-    AgainstTheRules(Refusal),
-    /// An aircraft left that was reported out of service.
-    #[error(
-        "aircraft {aircraft:?} is out of service; the departure is recorded despite the violation"
-    )]
-    DepartedOutOfService {
-        /// The aircraft.
-        aircraft: String,
-    },
-    /// An aircraft left before it was expected to be ready.
-    #[error(
-        "aircraft {aircraft:?} is not ready before {ready}; the departure is recorded despite the violation"
-    )]
-    DepartedUnready {
-        /// The aircraft.
-        aircraft: String,
-        /// When it was expected to be ready.
-        ready: Time,
-    },
-    /// An aircraft landed somewhere else.
-    #[error("aircraft {aircraft:?} landed at {at:?} instead of {to:?}")]
-    Diverted {
-        /// The aircraft.
-        aircraft: String,
-        /// Where it landed.
-        at: String,
-        /// Where it was flying to.
-        to: String,
-    },
-    /// An aircraft should have departed or landed, and neither was reported.
-    #[error("aircraft {aircraft:?} should have {done} at {time}, which was not reported")]
-    Overdue {
-        /// The aircraft.
-        aircraft: String,
-        /// Departed or landed.
-        done: &'static str,
-        /// When.
-        time: Time,
-    },
-    /// An aircraft is somewhere else without having flown there.
-    #[error("aircraft {aircraft:?} is at {at:?} although no flight to it was reported")]
-    NotFlown {
-        /// The aircraft.
-        aircraft: String,
-        /// Where it is.
-        at: String,
-    },
 }
 
 /// The reason why a report is refused. Nothing has changed then.
@@ -375,4 +342,24 @@ pub enum ReportError {
     /// to itself.
     #[error("the day has no such {0}")]
     Unknown(&'static str),
+    /// A report that cannot be taken back.
+    #[error("event {event} cannot be corrected: {why}")]
+    CannotCorrect {
+        /// Its number.
+        event: u64,
+        /// The reason.
+        why: &'static str,
+    },
+    /// A report that a later one depends on.
+    #[error(
+        "event {event} cannot be corrected: event {later} is not possible without it ({cause}); correct event {later} first"
+    )]
+    NeededLater {
+        /// Its number.
+        event: u64,
+        /// The number of the later one.
+        later: u64,
+        /// The reason why that one would be refused.
+        cause: Box<ReportError>,
+    },
 }

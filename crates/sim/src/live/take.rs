@@ -5,7 +5,8 @@ mod flights;
 
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 
-use super::report::{Notice, Report, ReportError};
+use super::notice::Notice;
+use super::report::{Report, ReportError};
 use super::{Before, LiveAircraft, LiveDay, LiveDecision, OutOfService, Phase};
 use crate::TraceRow;
 
@@ -69,13 +70,16 @@ impl LiveDay {
         }
     }
 
-    /// Takes a report in. `time` is when it happened; reports may come late, but the day's clock
-    /// never runs back. Returns the notices for people.
+    /// Applies a report, and returns the notices for people.
     ///
     /// # Errors
     /// Returns a [`ReportError`] if the report makes no sense or is a decision that breaks a rule.
     /// Nothing has changed then.
-    pub fn take(&mut self, time: Time, report: &Report) -> Result<Vec<Notice>, ReportError> {
+    pub(super) fn apply(
+        &mut self,
+        time: Time,
+        report: &Report,
+    ) -> Result<Vec<Notice>, ReportError> {
         let mut notices = Vec::new();
         match *report {
             Report::Decided { aircraft, to } => self.decide(aircraft, time, to)?,
@@ -85,12 +89,16 @@ impl LiveDay {
             }
             Report::Landed { aircraft, at, charge_kwh } => {
                 self.check_charge(aircraft, charge_kwh)?;
+                let too_high = self.charged_too_high(aircraft, time, charge_kwh);
                 self.land(aircraft, time, at, &mut notices)?;
+                notices.extend(too_high);
                 self.correct_charge(aircraft, charge_kwh);
             }
-            Report::Charging { aircraft, ready } => self.charge(aircraft, ready, "be charging")?,
-            Report::Ready { aircraft } => self.charge(aircraft, time, "be ready")?,
-            Report::Delayed { aircraft, until } => self.delay(aircraft, until)?,
+            Report::Charging { aircraft, ready } => {
+                self.charge(aircraft, ready, "be charging", &mut notices)?;
+            }
+            Report::Ready { aircraft } => self.charge(aircraft, time, "be ready", &mut notices)?,
+            Report::Delayed { aircraft, until } => self.delay(aircraft, until, &mut notices)?,
             Report::OutOfService { aircraft, until } => {
                 let until = until.map_or(OutOfService::UntilReported, OutOfService::Until);
                 self.set_out(aircraft, Some(until))?;
@@ -106,7 +114,8 @@ impl LiveDay {
             Report::Demand { period, ref pairs } => self.set_demand(period, pairs)?,
             Report::Booked { booking } => self.book(booking)?,
             Report::Cancelled { booking } => self.cancel(booking)?,
-            Report::Clock => {}
+            Report::Clock | Report::Acknowledged => {}
+            Report::Corrected { .. } => unreachable!("a correction computes the day again"),
             Report::Stands { vertiport, stands } => {
                 self.check_vertiport(vertiport)?;
                 self.forget();
@@ -128,11 +137,11 @@ impl LiveDay {
         is_known.then_some(()).ok_or(ReportError::Unknown("vertiport"))
     }
 
-    fn id(&self, aircraft: AircraftIx) -> String {
+    pub(super) fn id(&self, aircraft: AircraftIx) -> String {
         self.scenario().aircraft[aircraft.at()].id.clone()
     }
 
-    fn vertiport_id(&self, vertiport: VertiportIx) -> String {
+    pub(super) fn vertiport_id(&self, vertiport: VertiportIx) -> String {
         self.scenario().vertiports[vertiport.at()].id.clone()
     }
 

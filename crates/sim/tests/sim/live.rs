@@ -203,6 +203,53 @@ proptest! {
     }
 
     #[test]
+    fn a_corrected_report_leaves_no_trace(
+        day in energy_day(),
+        reports in prop::collection::vec((0..900_u32, any_report()), 1..40),
+        which in any::<prop::sample::Index>(),
+    ) {
+        let mut live = LiveDay::new(Arc::clone(&day));
+        let mut time = day.operations.start;
+        let mut accepted = Vec::new();
+        for (later_s, report) in reports {
+            if live.take(time + later_s, &report).is_ok() {
+                time = time + later_s;
+                accepted.push((time, report));
+            }
+        }
+        if accepted.is_empty() {
+            return Ok(());
+        }
+        let at = which.index(accepted.len());
+        let before = (all_of(&live), live.now());
+        let event = at as u64 + 1;
+        let corrected = live.take(time, &Report::Corrected { event });
+        accepted.remove(at);
+        let mut without = LiveDay::new(day);
+        let refused = accepted.iter().find_map(|(time, report)| without.take(*time, report).err());
+        match corrected {
+            Ok(_) => {
+                prop_assert_eq!(refused, None);
+                prop_assert_eq!(all_of(&live), all_of(&without));
+                prop_assert_eq!(live.now(), without.now());
+                let told = |day: &LiveDay| {
+                    day.past_notices().map(|(_, notice)| notice.clone()).collect::<Vec<_>>()
+                };
+                prop_assert_eq!(told(&live), told(&without));
+                check(&mut live);
+                let again = live.take(time, &Report::Corrected { event });
+                let is_refused = matches!(again, Err(ReportError::CannotCorrect { .. }));
+                prop_assert!(is_refused);
+            }
+            Err(ReportError::NeededLater { cause, .. }) => {
+                prop_assert_eq!(refused, Some(*cause));
+                prop_assert_eq!((all_of(&live), live.now()), before);
+            }
+            Err(other) => prop_assert!(false, "{}", other),
+        }
+    }
+
+    #[test]
     fn an_undone_decision_leaves_no_trace(
         day in energy_day(),
         reports in prop::collection::vec((0..900_u32, any_report()), 0..40),

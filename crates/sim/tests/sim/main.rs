@@ -12,5 +12,7 @@ mod foresight;
 mod invariants;
 mod known_closures;
 mod live;
+mod live_closures;
+mod live_notices;
 mod shown;
 mod waiting;

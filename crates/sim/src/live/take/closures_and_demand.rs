@@ -11,6 +11,8 @@ use crate::live::report::{Booking, ReportError, Routes};
 const MOST_PASSENGERS: u32 = 1_000_000;
 
 impl LiveDay {
+    /// Closes routes. The report replaces the closures in force on them, so a dated closure may also
+    /// end earlier than was reported before.
     pub(super) fn close(
         &mut self,
         time: Time,
@@ -20,16 +22,24 @@ impl LiveDay {
         let size = self.check_routes(routes)?;
         let pairs = routes.pairs(size);
         let Some(end) = until else {
+            // A dated closure in force stays known: policies expect it, and the routes stay closed
+            // after its end.
             for (from, to) in pairs {
                 self.known.closures.report(from, to, true, size);
+                self.closed_since.entry((from, to)).or_insert(time);
             }
             return Ok(());
         };
-        let closure = |&(from, to): &(VertiportIx, VertiportIx)| {
+        let closure = |(from, to), start| {
             let route = Route { from, to, both_ways: false };
-            Closure { route, start: time, end, known: true }
+            Closure { route, start, end, known: true }
         };
-        self.closures.extend(pairs.iter().map(closure));
+        let replaced = self.end_closures(time, &pairs);
+        for &pair in &pairs {
+            let of_pair = |(route, _): &&(Route, Time)| (route.from, route.to) == pair;
+            let begun = replaced.iter().filter(of_pair).map(|&(_, start)| start).min();
+            self.closures.push(closure(pair, begun.map_or(time, |start| start.min(time))));
+        }
         self.announce(time, &pairs);
         Ok(())
     }
@@ -37,33 +47,47 @@ impl LiveDay {
     pub(super) fn reopen(&mut self, time: Time, routes: Routes) -> Result<(), ReportError> {
         let size = self.check_routes(routes)?;
         let pairs = routes.pairs(size);
-        let time = time.max(self.now);
-        let in_force = |closure: &Closure| {
-            let pair = (closure.route.from, closure.route.to);
-            (closure.start..closure.end).contains(&time) && pairs.contains(&pair)
-        };
-        if self.closures.iter().any(in_force) {
-            self.closures.retain(|closure| !in_force(closure));
+        if !self.end_closures(time, &pairs).is_empty() {
             self.announce(time, &pairs);
             return Ok(());
         }
         for (from, to) in pairs {
             self.known.closures.report(from, to, false, size);
+            self.closed_since.remove(&(from, to));
         }
         Ok(())
+    }
+
+    /// Removes the dated closures that are in force on some routes, and returns their routes and
+    /// when they began.
+    fn end_closures(
+        &mut self,
+        time: Time,
+        pairs: &[(VertiportIx, VertiportIx)],
+    ) -> Vec<(Route, Time)> {
+        let time = time.max(self.now);
+        let in_force = |closure: &mut Closure| {
+            let pair = (closure.route.from, closure.route.to);
+            (closure.start..closure.end).contains(&time) && pairs.contains(&pair)
+        };
+        let ended = self.closures.extract_if(.., in_force);
+        ended.map(|closure| (closure.route, closure.start)).collect()
     }
 
     /// Makes all closures known whose end is.
     fn announce(&mut self, time: Time, reported: &[(VertiportIx, VertiportIx)]) {
         let (now, size) = (self.now.max(time), self.scenario().vertiports.len());
         self.known.closures.announce(&self.closures, reported, now, size);
+        for pair in reported {
+            self.closed_since.remove(pair);
+        }
         self.known.eventful = true;
         self.forget();
     }
 
     /// Makes policies treat the day as a new one, because what they keep of it no longer holds:
     /// they read stands and known closures once a day.
-    pub(super) fn forget(&mut self) {
+    pub(in crate::live) fn forget(&mut self) {
         self.known.scenario = Arc::new(Scenario::clone(&self.known.scenario));
     }
 

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use vertifleet_core::{AircraftIx, Time, VertiportIx};
 
-use crate::live::report::{Notice, ReportError};
+use crate::live::notice::Notice;
+use crate::live::report::ReportError;
 use crate::live::{LiveAircraft, LiveDay, LiveDecision, OutOfService, Phase};
 use crate::{Decision, TraceRow};
 
@@ -41,6 +42,15 @@ impl LiveDay {
         let Phase::SentOff { flight, departs } = self.aircraft[aircraft.at()].phase else {
             unreachable!("it has been sent off by now");
         };
+        if state.phase != Phase::Standing || time < self.decisions[flight].before.arrival {
+            // Of an aircraft without a decision, it is known that it was not ready.
+            let too_soon = self.departed_too_soon(flight, time);
+            notices.retain(|notice| {
+                too_soon.is_none() || !matches!(notice, Notice::DepartedUnready { .. })
+            });
+            notices.extend(too_soon);
+        }
+        notices.extend(self.lacks_energy(flight, time));
         self.aircraft[aircraft.at()].phase = Phase::InTheAir { flight, departed: time };
         self.aircraft[aircraft.at()].undoable = None;
         if let Some(passengers) = passengers {
@@ -99,7 +109,10 @@ impl LiveDay {
         self.known.advance_to(time);
         let waiting = self.known.demand.waiting(at, to);
         let breaks = !self.known.feasible(&decision).contains(to);
-        let notice = breaks.then(|| Notice::AgainstTheRules(self.known.refusal(&decision, to)));
+        let notice = breaks.then(|| Notice::AgainstTheRules {
+            aircraft: self.id(aircraft),
+            refusal: self.known.refusal(&decision, to),
+        });
         let row = self.known.fly(&decision, to);
         self.enter(row, before, waiting);
         notice
@@ -177,13 +190,14 @@ impl LiveDay {
                 self.set_prepared(aircraft, state.prepared.max(time));
             }
             Phase::SentOff { flight, .. } | Phase::InTheAir { flight, .. } => {
+                notices.extend(self.landed_too_soon(aircraft, time, at));
                 if at != expected_at {
                     notices.push(Notice::Diverted {
                         aircraft: self.id(aircraft),
                         at: self.vertiport_id(at),
                         to: self.vertiport_id(expected_at),
                     });
-                    self.divert(aircraft, flight, at);
+                    self.divert(aircraft, flight, at, notices);
                 }
                 if self.decisions[flight].row.arrival != time {
                     self.set_arrival(aircraft, flight, time);
@@ -207,7 +221,13 @@ impl LiveDay {
 
     /// Lets a flight end at another vertiport. It takes the energy of the flight there, or what it
     /// was to take if it came back; everything else of its account stays.
-    fn divert(&mut self, aircraft: AircraftIx, flight: usize, at: VertiportIx) {
+    fn divert(
+        &mut self,
+        aircraft: AircraftIx,
+        flight: usize,
+        at: VertiportIx,
+        notices: &mut Vec<Notice>,
+    ) {
         self.move_to(aircraft, at);
         let LiveDecision { row, .. } = self.decisions[flight];
         if at != row.from {
@@ -222,6 +242,7 @@ impl LiveDay {
                 unreachable!("a flight is diverted while it is on its way");
             };
             self.set_takeoff(flight, takeoff);
+            notices.extend(self.lacks_energy_for(flight, at, takeoff));
         }
         self.set_arrival(aircraft, flight, row.arrival);
     }
@@ -231,10 +252,12 @@ impl LiveDay {
         aircraft: AircraftIx,
         ready: Time,
         report: &'static str,
+        notices: &mut Vec<Notice>,
     ) -> Result<(), ReportError> {
         if self.state(aircraft)?.phase != Phase::Standing {
             return Err(self.wrong_place(aircraft, report));
         }
+        notices.extend(self.ready_too_soon(aircraft, ready));
         self.set_prepared(aircraft, ready);
         self.aircraft[aircraft.at()].undoable = None;
         let latest = self
@@ -250,17 +273,27 @@ impl LiveDay {
         Ok(())
     }
 
-    pub(super) fn delay(&mut self, aircraft: AircraftIx, until: Time) -> Result<(), ReportError> {
+    pub(super) fn delay(
+        &mut self,
+        aircraft: AircraftIx,
+        until: Time,
+        notices: &mut Vec<Notice>,
+    ) -> Result<(), ReportError> {
         match self.state(aircraft)?.phase {
-            Phase::Standing => self.charge(aircraft, until, "be delayed")?,
+            Phase::Standing => self.charge(aircraft, until, "be delayed", notices)?,
             Phase::SentOff { flight, departs } => {
+                notices.extend(self.lacks_energy(flight, until));
                 self.note_delay(flight, until);
                 let flight_s = self.decisions[flight].row.arrival.since(departs);
                 self.aircraft[aircraft.at()].phase = Phase::SentOff { flight, departs: until };
                 self.set_takeoff(flight, until);
                 self.set_arrival(aircraft, flight, until + flight_s);
             }
-            Phase::InTheAir { flight, .. } => self.set_arrival(aircraft, flight, until),
+            Phase::InTheAir { flight, .. } => {
+                let at = self.known.place[aircraft.at()];
+                notices.extend(self.landed_too_soon(aircraft, until, at));
+                self.set_arrival(aircraft, flight, until);
+            }
         }
         Ok(())
     }

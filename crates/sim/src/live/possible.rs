@@ -1,0 +1,160 @@
+//! Reports of the impossible: departures before the landing, flights without energy or faster than
+//! the aircraft, and batteries that charge faster than they can.
+//!
+//! The times and charges of the simulator are estimates, so a notice needs more than a small
+//! deviation from them.
+
+use vertifleet_core::{AircraftIx, Time, VertiportIx, whole_mwh};
+
+use super::notice::Notice;
+use super::{Before, LiveDay, LiveDecision, Phase};
+use crate::legs::refill_s;
+
+/// A duration below this share of the expected one is impossible: 4 / 5, for the tail wind of a
+/// flight. See also [`TOLERANCE_S`].
+const LEAST: (u64, u64) = (4, 5);
+/// Reports of times may be wrong by a minute.
+const TOLERANCE_S: u32 = 60;
+
+/// Whether something takes so much less time than expected that the reports cannot be true.
+fn is_too_short(took_s: u32, expected_s: u32) -> bool {
+    u64::from(took_s) * LEAST.1 < u64::from(expected_s) * LEAST.0
+        && expected_s - took_s > TOLERANCE_S
+}
+
+impl LiveDay {
+    /// The reason why a flight cannot have departed at a time, if it cannot.
+    pub(super) fn departed_too_soon(&self, flight: usize, time: Time) -> Option<Notice> {
+        let LiveDecision { row, before: Before { arrival, prepared, .. }, .. } =
+            self.decisions[flight];
+        let aircraft = self.id(row.aircraft);
+        // The day begins with its aircraft on the ground.
+        if time < arrival && arrival > self.scenario().operations.start {
+            return Some(Notice::DepartedBeforeLanding {
+                aircraft,
+                departed: time,
+                landed: arrival,
+            });
+        }
+        (time < prepared).then_some(Notice::DepartedUnready { aircraft, ready: prepared })
+    }
+
+    /// The energy that a flight lacks if it takes off at a time, on days that charge as needed.
+    pub(super) fn lacks_energy(&self, flight: usize, takeoff: Time) -> Option<Notice> {
+        self.lacks_energy_for(flight, self.decisions[flight].row.to, takeoff)
+    }
+
+    /// The energy that a flight lacks that ends at a vertiport.
+    pub(super) fn lacks_energy_for(
+        &self,
+        flight: usize,
+        to: VertiportIx,
+        takeoff: Time,
+    ) -> Option<Notice> {
+        if self.known.batteries.are_always_full() {
+            return None;
+        }
+        let row = &self.decisions[flight].row;
+        let kind = self.scenario().aircraft[row.aircraft.at()].kind;
+        let has_mwh = self.charge_before_mwh(flight, takeoff);
+        let flight_mwh = whole_mwh(row.energy_kwh);
+        let needs_mwh = self.scenario().aircraft_types[kind.at()].needed_mwh(row.energy_kwh);
+        if has_mwh >= needs_mwh {
+            return None;
+        }
+        let (aircraft, to) = (self.id(row.aircraft), self.vertiport_id(to));
+        let kwh = |mwh: u64| mwh as f64 / 1e6;
+        let has_kwh = kwh(has_mwh);
+        Some(if has_mwh < flight_mwh {
+            Notice::WithoutEnergy { aircraft, to, has_kwh, needs_kwh: kwh(flight_mwh) }
+        } else {
+            Notice::BelowReserve { aircraft, to, has_kwh, needs_kwh: kwh(needs_mwh) }
+        })
+    }
+
+    /// The energy that an aircraft on its way lacks.
+    pub(super) fn lacks_energy_now(&self, aircraft: AircraftIx) -> Option<Notice> {
+        match self.aircraft[aircraft.at()].phase {
+            Phase::Standing => None,
+            Phase::SentOff { flight, departs: takeoff }
+            | Phase::InTheAir { flight, departed: takeoff } => self.lacks_energy(flight, takeoff),
+        }
+    }
+
+    /// Compares the landing of a flight at a vertiport with the time that the aircraft needs.
+    pub(super) fn landed_too_soon(
+        &self,
+        aircraft: AircraftIx,
+        time: Time,
+        at: VertiportIx,
+    ) -> Option<Notice> {
+        let (flight, departed) = match self.aircraft[aircraft.at()].phase {
+            Phase::Standing => return None,
+            // Its departure was not reported, but it did not depart before its decision.
+            Phase::SentOff { flight, .. } => (flight, self.decisions[flight].row.time),
+            Phase::InTheAir { flight, departed } => (flight, departed),
+        };
+        let from = self.decisions[flight].row.from;
+        if at == from {
+            return None;
+        }
+        let kind = self.scenario().aircraft[aircraft.at()].kind;
+        let flight_s = self.known.legs.leg(kind, from, at).flight_s;
+        let flown_s = time.since(departed);
+        is_too_short(flown_s, flight_s).then(|| Notice::TooFast {
+            aircraft: self.id(aircraft),
+            at: self.vertiport_id(at),
+            flown_s,
+            flight_s,
+        })
+    }
+
+    /// Compares the reported charge of an aircraft that lands with the expected one. A flight may
+    /// take half of its energy, but not less.
+    pub(super) fn charged_too_high(
+        &self,
+        aircraft: AircraftIx,
+        time: Time,
+        charge_kwh: Option<f64>,
+    ) -> Option<Notice> {
+        let charge_mwh = whole_mwh(charge_kwh?);
+        let kind = self.scenario().aircraft[aircraft.at()].kind;
+        let (expected_mwh, spare_mwh) = match self.aircraft[aircraft.at()].phase {
+            Phase::Standing => {
+                let battery_kwh = self.scenario().aircraft_types[kind.at()].battery_kwh;
+                (self.known.charge_mwh(aircraft, time), whole_mwh(battery_kwh) / 20)
+            }
+            Phase::SentOff { flight, departs: takeoff }
+            | Phase::InTheAir { flight, departed: takeoff } => {
+                let flight_mwh = whole_mwh(self.decisions[flight].row.energy_kwh);
+                let charged_mwh = self.charge_before_mwh(flight, takeoff);
+                (charged_mwh.saturating_sub(flight_mwh), flight_mwh / 2)
+            }
+        };
+        (charge_mwh > expected_mwh + spare_mwh).then(|| Notice::ChargeTooHigh {
+            aircraft: self.id(aircraft),
+            charge_kwh: charge_mwh as f64 / 1e6,
+            expected_kwh: expected_mwh as f64 / 1e6,
+        })
+    }
+
+    /// Compares the time at which an aircraft on the ground is ready with the time that it needs to
+    /// charge. On days that charge as needed, only its turnaround has to be over.
+    pub(super) fn ready_too_soon(&self, aircraft: AircraftIx, ready: Time) -> Option<Notice> {
+        let of_aircraft = |one: &&LiveDecision| {
+            one.row.aircraft == aircraft && !one.is_undone && one.row.from != one.row.to
+        };
+        let row = &self.decisions.iter().rev().find(of_aircraft)?.row;
+        let landed = self.known.arrival[aircraft.at()];
+        let scenario = self.scenario();
+        let kind = &scenario.aircraft_types[scenario.aircraft[aircraft.at()].kind.at()];
+        let at = &scenario.vertiports[self.known.place[aircraft.at()].at()];
+        let charge_s = if self.known.batteries.are_always_full() {
+            refill_s(row.energy_kwh, kind, at)
+        } else {
+            0
+        };
+        (ready < landed || is_too_short(ready.since(landed), charge_s))
+            .then(|| Notice::ReadyTooSoon { aircraft: self.id(aircraft), ready, landed, charge_s })
+    }
+}
