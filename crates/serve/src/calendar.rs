@@ -78,7 +78,15 @@ mod tests {
         let time = Time::from_seconds(7 * 3600 + 600);
         assert_eq!(day.write(time), "2026-11-23T07:10:00-05:00");
         assert_eq!(day.read("2026-11-23T07:10:00-05:00"), Some(time));
-        assert_eq!(day.read("2026-11-23T12:10:00Z"), Some(time));
+        for other in [
+            "2026-11-23T12:10:00Z",
+            "2026-11-23t12:10:00z",
+            "2026-11-23 12:10:00Z",
+            "2026-11-23 07:10:00-05:00",
+            "2026-11-23t07:10:00.250-05:00",
+        ] {
+            assert_eq!(day.read(other), Some(time), "{other}");
+        }
         assert_eq!(day.write(Time::from_seconds(25 * 3600)), "2026-11-24T01:00:00-05:00");
     }
 

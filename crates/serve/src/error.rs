@@ -376,11 +376,11 @@ pub enum Error {
     #[error("the address of the database must begin with postgres:// or postgresql://")]
     BadDatabase,
 
-    /// V629 token name in use. A token with this name is valid, and the audit could not distinguish
-    /// two with one name.
+    /// V629 token name in use. A token has or had this name, and the audit could not distinguish two
+    /// with one name. That includes revoked tokens.
     ///
-    /// Fix: choose another name, or revoke the other token first.
-    #[error("a token with the name {name:?} is in force")]
+    /// Fix: choose another name.
+    #[error("the name {name:?} was given to another token")]
     NameTaken {
         /// The name.
         name: String,

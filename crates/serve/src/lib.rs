@@ -28,10 +28,13 @@ mod limits;
 mod mark;
 mod metrics;
 mod moment;
+mod names;
+mod network_folder;
 mod networks;
-mod operate;
-#[cfg(test)]
 mod notice;
+mod operate;
+mod optional;
+#[cfg(test)]
 mod orders;
 mod outlook;
 mod policies;

@@ -42,7 +42,7 @@ pub(crate) struct Moment(Time);
 /// The pattern of the texts of times. Times that follow from the latest accepted time may be after
 /// 100:00:00.
 const PATTERN: &str =
-    "^([0-9]{1,4}:[0-5][0-9]:[0-5][0-9]|[0-9]{1,6}|[0-9]{4}-[0-9]{2}-[0-9]{2}T.*[0-9].*)$";
+    "^([0-9]{1,4}:[0-5][0-9]:[0-5][0-9]|[0-9]{1,6}|[0-9]{4}-[0-9]{2}-[0-9]{2}[Tt ].*[0-9].*)$";
 /// Longest day, seconds.
 const LATEST_S: u32 = 100 * 3600;
 
@@ -63,7 +63,8 @@ impl Moment {
         if let Ok(seconds) = text.parse() {
             return Self::of_seconds(seconds);
         }
-        if !text.contains('T') {
+        // RFC 3339 permits a lower-case letter or a blank between date and time.
+        if !text.contains(['T', 't', ' ']) {
             let time = text.parse::<Time>().map_err(|error| error.to_string())?;
             return Self::of_seconds(time.seconds().into());
         }

@@ -19,6 +19,8 @@ use crate::error::Error;
 use crate::event::Event;
 use crate::ids::Ids;
 use crate::moment::Moment;
+use crate::notice::EventNotice;
+use crate::optional::or_default;
 
 /// The expected rest of a day if a policy takes every decision from now on.
 #[derive(Debug, Clone, Serialize, ToSchema)]
@@ -106,18 +108,19 @@ pub(crate) struct Leg {
 #[serde(deny_unknown_fields)]
 pub(crate) struct WhatIf {
     /// Events that might happen now, in order.
-    #[serde(default)]
-    #[schema(max_items = 1_000)]
+    #[serde(default, deserialize_with = "or_default")]
+    #[schema(max_items = 1_000, nullable)]
     pub(crate) events: Vec<Event>,
     /// The policy that would decide; without it, the day's.
     pub(crate) policy: Option<String>,
     /// Numbers of stands (or of chargers if they are counted separately) of vertiports from the
     /// morning on.
-    #[serde(default)]
-    #[schema(value_type = BTreeMap<String, StandCount>)]
+    #[serde(default, deserialize_with = "or_default")]
+    #[schema(value_type = BTreeMap<String, StandCount>, nullable)]
     pub(crate) stands: BTreeMap<String, u16>,
     /// Additional aircraft of the fleet from the morning on.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
+    #[schema(nullable)]
     pub(crate) aircraft: Vec<MoreAircraft>,
 }
 

@@ -14,6 +14,7 @@ use crate::connections::{acceptor, listen, take};
 use crate::console::Console;
 use crate::error::Error;
 use crate::limits::Limits;
+use crate::network_folder::network_file_system;
 use crate::service::Service;
 use crate::spans::Spans;
 use crate::store::{Location, Store};
@@ -86,6 +87,7 @@ pub fn serve(
         // Held until the service stops. The operating system releases it even if the service is
         // killed.
         let _lock = lock(&settings.location)?;
+        warn_of_network(&settings.location);
         let mut service = Service::new(store, settings.limits).await?;
         service.spans.clone_from(&spans);
         let service = Arc::new(service);
@@ -133,6 +135,20 @@ fn lock(location: &Location) -> Result<Option<File>, Error> {
         Ok(()) => Ok(Some(file)),
         Err(TryLockError::WouldBlock) => Err(Error::InUse { folder: folder.clone() }),
         Err(TryLockError::Error(cause)) => Err(failed(cause)),
+    }
+}
+
+/// Warns if the data are on a network file system.
+fn warn_of_network(location: &Location) {
+    if let Location::Folder(folder) = location
+        && let Some(kind) = network_file_system(folder)
+    {
+        tracing::warn!(
+            folder = %folder.display(),
+            kind,
+            "the data are on a network file system, on which SQLite cannot lock them: another \
+             program that uses the folder may damage them; use a local disk or --database"
+        );
     }
 }
 

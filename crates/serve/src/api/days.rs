@@ -7,12 +7,15 @@ use axum::http::{HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use serde::{Deserialize, Serialize};
 use utoipa::{IntoParams, ToSchema};
+use vertifleet_core::{Scenario, Stop};
+use vertifleet_sim::Trace;
 use vertifleet_sim::live::LiveDay;
 
 use super::answer::{at_event, json, written};
 use super::extract::{Named, PageSize, UPLOAD, Validated, parse};
 use super::new_day::NewDay;
 use super::write::Idempotent;
+use crate::access::Actor;
 use crate::clock::now_ms;
 use crate::day_cell::DayCell;
 use crate::days::Writer;
@@ -243,10 +246,14 @@ pub(super) async fn delete(
 pub(super) async fn scenario(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
+    actor: Actor,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
     let scenario = Arc::clone(day.state().live().scenario());
-    Ok(written(StatusCode::OK, scenario.to_json()))
+    // That of a large day has megabytes.
+    let write = move |_: &Stop| Ok(scenario.to_json());
+    let json = service.turns.readings.work(&actor, None, write).await?;
+    Ok(written(StatusCode::OK, json))
 }
 
 /// The decisions so far as CSV: the trace of the day.
@@ -254,14 +261,18 @@ pub(super) async fn scenario(
 pub(super) async fn trace(
     State(service): State<Arc<Service>>,
     Named(day): Named<String>,
+    actor: Actor,
 ) -> Result<Response, Error> {
     let day = service.days.get(&day).await?;
-    let (seq, csv) = trace_csv(&day);
+    let (seq, trace, scenario) = trace_of(&day);
+    let write = move |_: &Stop| Ok(trace.to_csv(&scenario));
+    let csv = service.turns.readings.work(&actor, None, write).await?;
     day.stored_up_to(seq).await?;
     Ok(([(header::CONTENT_TYPE, "text/csv; charset=utf-8")], csv).into_response())
 }
 
-fn trace_csv(day: &DayCell) -> (u64, String) {
+fn trace_of(day: &DayCell) -> (u64, Trace, Arc<Scenario>) {
     let state = day.state();
-    (state.seq(), state.live().trace().to_csv(state.live().scenario()))
+    let live = state.live();
+    (state.seq(), live.trace(), Arc::clone(live.scenario()))
 }

@@ -41,6 +41,7 @@ pub(crate) struct DecisionQuery {
     /// The policy; without it, the day's.
     policy: Option<String>,
     /// The time of the decision; without it, or if it is in the past, now.
+    #[param(value_type = Option<Moment>, inline)]
     time: Option<String>,
     /// Time limit of the answer, milliseconds. If the policy is not ready then, a faster one
     /// answers.
@@ -90,10 +91,10 @@ pub(crate) struct TakenDecision {
     seq: u64,
     /// The destination of the aircraft; its own vertiport means hold.
     to: String,
-    /// The proposal of the policy, with its reasons; null if a person chose.
     /// Notices for people.
     #[schema(value_type = Vec<EventNotice>)]
     notices: Box<RawValue>,
+    /// The proposal of the policy, with its reasons; null if a person chose.
     proposal: Option<Proposal>,
 }
 
@@ -213,8 +214,8 @@ async fn take(
     let answer = |events: &[TakenEvent]| TakenDecision {
         seq: last_seq(events),
         to: to.clone(),
-        proposal: proposal.clone(),
         notices: notices_of(&events[0]),
+        proposal: proposal.clone(),
     };
     service.days.append(day, writer, vec![event], answer).await
 }

@@ -22,6 +22,7 @@ use crate::service::Service;
 #[serde(deny_unknown_fields)]
 pub(crate) struct InPeriod {
     /// The beginning of a demand period; without it, the current one.
+    #[param(value_type = Option<Moment>, inline)]
     period: Option<String>,
     /// How times are written in the answer.
     #[serde(default)]

@@ -10,7 +10,7 @@ use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
 
 use super::answer::{Times, at_event, json};
-use super::extract::{EventNumber, Named, PageSize, Validated, parse};
+use super::extract::{EventNumber, Named, PageSize, Validated, parse, without_mark};
 use super::write::Idempotent;
 use crate::access::Actor;
 use crate::days::last_seq;
@@ -41,6 +41,7 @@ impl OneOrMore {
     /// Parses a body. Its first character decides between the two, so that a message names the
     /// error inside.
     fn parse(body: &[u8]) -> Result<Self, Error> {
+        let body = without_mark(body);
         match body.iter().find(|byte| !byte.is_ascii_whitespace()) {
             Some(b'[') => Self::several(body).map(Self::More),
             _ => parse(body).map(Self::One),
@@ -101,12 +102,12 @@ impl Taken {
     }
 }
 
-/// Events of a day.
 /// The notices of a new event.
 pub(super) fn notices_of(event: &TakenEvent) -> Box<RawValue> {
     RawValue::from_string(event.notices.clone()).expect("it was written as JSON")
 }
 
+/// Events of a day.
 #[derive(Debug, Serialize, ToSchema)]
 pub(crate) struct EventList {
     /// The events, in order.

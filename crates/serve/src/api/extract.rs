@@ -175,10 +175,40 @@ fn in_words_of_json(message: &str) -> String {
     text
 }
 
+/// Numbers that other programs write, but that JSON does not have.
+const NO_NUMBERS: [&str; 3] = ["NaN", "-Infinity", "Infinity"];
+
+/// The number that JSON does not have at the place of an error.
+fn no_number(body: &[u8], error: &serde_json::Error) -> Option<&'static str> {
+    let line = body.split(|&byte| byte == b'\n').nth(error.line().checked_sub(1)?)?;
+    // The place is that of the character or the one before it.
+    let starts =
+        (error.column().saturating_sub(2)..=error.column()).filter_map(|at| line.get(at..));
+    starts
+        .flat_map(|rest| NO_NUMBERS.into_iter().filter(|name| rest.starts_with(name.as_bytes())))
+        .next()
+}
+
+/// A body without the byte order mark that some programs begin a text with.
+pub(super) fn without_mark(body: &[u8]) -> &[u8] {
+    body.strip_prefix(b"\xef\xbb\xbf").unwrap_or(body)
+}
+
 /// Parses the JSON of a request. An empty body is the empty object.
 pub(super) fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, Error> {
-    let body = if body.is_empty() { b"{}".as_slice() } else { body };
+    let body = match without_mark(body) {
+        [] => b"{}".as_slice(),
+        body => body,
+    };
     serde_json::from_slice(body).map_err(|error| {
+        if let Some(name) = no_number(body, &error) {
+            let rule = format!(
+                "{name} is no number of JSON, at line {} column {}: leave the member out, or write null",
+                error.line(),
+                error.column()
+            );
+            return Error::BadRequest { rule };
+        }
         // A message may quote the request, which may be long.
         let text = in_words_of_json(&error.to_string());
         let mut rule: String = text.chars().take(LONGEST_RULE).collect();

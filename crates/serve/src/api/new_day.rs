@@ -11,7 +11,9 @@ use crate::calendar::Calendar;
 use crate::error::Error;
 use crate::ids::Ids;
 use crate::moment::Moment;
+use crate::names::is_printed;
 use crate::networks;
+use crate::optional::or_default;
 use crate::service::Service;
 
 /// A day to make, from a network or from a scenario.
@@ -32,7 +34,8 @@ pub(crate) struct NewDay {
     forecast: Option<Vec<ForecastRow>>,
     /// The vertiports of aircraft in the morning, by the ids of the aircraft. The others stand
     /// where the network or the scenario places them.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
+    #[schema(nullable)]
     aircraft: BTreeMap<String, String>,
     #[schema(min_length = 1, max_length = 80)]
     /// The display name of the day; without it, the name of its scenario, or of its network with
@@ -44,6 +47,7 @@ pub(crate) struct NewDay {
     date: Option<String>,
     /// The time zone of its clock by its name in the IANA database; without it, that of the
     /// network.
+    #[schema(min_length = 1)]
     time_zone: Option<String>,
     /// The default policy of its decisions.
     pub(super) policy: Option<String>,
@@ -157,7 +161,7 @@ impl NewDay {
             return Ok(dated.unwrap_or_else(|| scenario.name.clone()));
         };
         let length = name.chars().count();
-        if length == 0 || length > LONGEST_NAME || name.contains(char::is_control) {
+        if length == 0 || length > LONGEST_NAME || !is_printed(name) {
             let rule = format!(
                 "the `name` of a day has 1 to {LONGEST_NAME} characters, all of them printed ones"
             );

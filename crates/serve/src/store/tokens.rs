@@ -22,11 +22,16 @@ pub struct AuditRecord {
 }
 
 impl Store {
-    /// Adds a token.
+    /// Adds a token, unless one with this name exists or existed.
+    ///
+    /// # Errors
+    /// Returns [`Error::Conflict`] if the name was given before, and [`Error::Store`].
     pub(crate) async fn add_token(&self, token: &StoredToken) -> Result<(), Error> {
-        query(
+        let done = query(
             "INSERT INTO tokens (id, name, role, hash, created_ms, revoked_ms)
-             VALUES ($1, $2, $3, $4, $5, 0)",
+             SELECT CAST($1 AS TEXT), CAST($2 AS TEXT), CAST($3 AS TEXT), CAST($4 AS TEXT),
+                 CAST($5 AS BIGINT), 0
+             WHERE NOT EXISTS (SELECT 1 FROM tokens WHERE name = $2)",
         )
         .bind(&token.id)
         .bind(&token.name)
@@ -35,7 +40,7 @@ impl Store {
         .bind(token.created_ms)
         .execute(&self.pool)
         .await?;
-        Ok(())
+        if done.rows_affected() == 0 { Err(Error::Conflict) } else { Ok(()) }
     }
 
     /// All tokens, including revoked ones.

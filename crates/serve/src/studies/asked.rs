@@ -12,6 +12,7 @@ use vertifleet_study::{NetworkOrigin, PolicySource, PolicySpec};
 use crate::access::Actor;
 use crate::error::Error;
 use crate::networks;
+use crate::optional::or_default;
 use crate::policies::Policies;
 use crate::store::Store;
 use crate::turns::Turns;
@@ -43,10 +44,12 @@ pub(crate) struct NewStudy {
     #[schema(maximum = 1_099_511_627_775u64)]
     seed: Option<u64>,
     /// The purpose of the days.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
+    #[schema(nullable)]
     split: Split,
     /// Whether to prove an upper bound for every day, which takes long on large networks.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
+    #[schema(nullable)]
     bounds: bool,
 }
 
@@ -94,7 +97,7 @@ impl NewStudy {
         self,
         store: &Store,
         uploaded: &Policies,
-        (turns, actor): (&Turns, &str),
+        (turns, actor): (&Turns, &Actor),
     ) -> Result<Asked, Error> {
         let Self { network, toml, policies, days, seed, split, bounds } = self;
         let most = |what, most| Err(Error::TooMuch { what, most });

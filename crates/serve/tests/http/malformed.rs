@@ -99,3 +99,92 @@ fn deep_and_huge_requests_are_refused() {
         assert!(answer.json.to_string().len() < 1_000, "the answer does not repeat the request");
     }
 }
+
+#[test]
+fn json_may_begin_with_a_byte_order_mark() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let path = format!("{day}/events");
+    for body in [r#"{"type": "clock"}"#, r#"[{"type": "clock"}]"#] {
+        let marked = [b"\xef\xbb\xbf", body.as_bytes()].concat();
+        let taken = service.send("POST", &path, &[], &marked);
+        assert_eq!(taken.status, 201, "{taken:?}");
+    }
+}
+
+#[test]
+fn numbers_that_json_does_not_have_are_named() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    for (number, named) in [("NaN", "NaN"), ("Infinity", "Infinity"), ("-Infinity", "-Infinity")] {
+        let event =
+            format!("{{\"type\": \"landed\",\n \"aircraft\": \"A01\", \"charge_kwh\": {number}}}");
+        for body in [event.clone(), format!("[{event}]"), format!("{{\"events\": [{event}]}}")] {
+            let path = if body.starts_with("{\"events") { "what-if" } else { "events" };
+            let refused = service.send("POST", &format!("{day}/{path}"), &[], body.as_bytes());
+            assert_eq!(refused.problem(), (400, "V601"), "{body}");
+            let detail = refused.json["detail"].as_str().unwrap_or_default();
+            assert!(
+                detail.contains(&format!("{named} is no number of JSON, at line 2")),
+                "{detail}"
+            );
+        }
+    }
+}
+
+#[test]
+fn null_is_the_same_as_an_optional_member_that_is_left_out() {
+    let (_folder, service) = service();
+    let new_day = json!({
+        "network": "paper", "seed": null, "scenario": null, "forecast": null, "aircraft": null,
+        "name": null, "date": null, "time_zone": null, "policy": "greedy",
+    });
+    let day = service.post("/v1/days", &new_day).made("/v1/days");
+    let what_if = json!({"events": null, "policy": null, "stands": null, "aircraft": null});
+    let compared = service.post(&format!("{day}/what-if"), &what_if);
+    assert_eq!((compared.status, &compared.json["difference_usd"]), (200, &json!(0.0)));
+    let decided = json!({
+        "aircraft": "A01", "to": null, "reason": null, "policy": null, "time": null,
+        "deadline_ms": null,
+    });
+    assert_eq!(service.decide(&day, &decided).status, 201);
+    for event in [
+        json!({"type": "clock", "time": null}),
+        json!({"type": "undone", "aircraft": "A01", "reason": null}),
+        json!({"type": "out_of_service", "aircraft": "A02", "until": null, "reason": null}),
+        json!({"type": "closed", "routes": {"vertiport": "V1"}, "until": null, "reason": null}),
+        json!({"type": "acknowledged", "alert": "closed V1", "reason": null}),
+        json!({"type": "corrected", "event": 1, "reason": null}),
+    ] {
+        let taken = service.event(&day, &event);
+        assert!(taken.status == 201 || event["event"] == 1, "{event}: {taken:?}");
+    }
+    let study = json!({
+        "network": "paper", "toml": null, "policies": ["greedy", "random"], "days": 1,
+        "seed": null, "split": null, "bounds": null,
+    });
+    let made = service.post("/v1/studies", &study);
+    assert_eq!(made.status, 201, "{made:?}");
+}
+
+#[test]
+fn an_empty_time_is_refused_by_the_service_and_its_description() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    let description: Value =
+        serde_json::from_str(&vertifleet_serve::openapi()).expect("it is JSON");
+    let pattern = description["components"]["schemas"]["Moment"]["pattern"].clone();
+    for (path, described, name) in [
+        ("aircraft/A01/decision?time=", "/v1/days/{day}/aircraft/{aircraft}/decision", "time"),
+        ("demand?period=", "/v1/days/{day}/demand", "period"),
+    ] {
+        assert_eq!(service.get(&format!("{day}/{path}")).problem(), (400, "V601"), "{path}");
+        assert_eq!(service.get(&format!("{day}/{path}07:00:00")).status, 200, "{path}");
+        let parameters = description["paths"][described]["get"]["parameters"].clone();
+        let parameters = parameters.as_array().expect("a list").iter();
+        let schema = parameters.filter(|one| one["name"] == name).map(|one| &one["schema"]).next();
+        let schema = schema.expect("it is described").to_string();
+        let is_limited = schema.contains("Moment") || schema.contains("pattern");
+        assert!(pattern.is_string() && is_limited, "{schema}");
+    }
+}

@@ -303,6 +303,16 @@ fn tokens_have_unique_names_and_answers_name_the_scheme() {
     let token = tokens.make("console", Role::Read).expect("a token");
     let refused = tokens.make("console", Role::Admin).expect_err("one of this name is in force");
     assert_eq!(refused.code().to_string(), "V629");
+    // The audit names tokens, so a name is never given again.
+    let old = tokens.make("night shift", Role::Read).expect("a token");
+    let id = old.trim_start_matches("vf_").split('_').next().expect("an id");
+    tokens.revoke(id).expect("it was in force");
+    let refused = tokens.make("night shift", Role::Admin).expect_err("its name was given");
+    assert_eq!(refused.code().to_string(), "V629");
+    for hidden in ["an\nna", "anna\u{7}", "an\u{202e}na", " "] {
+        let refused = tokens.make(hidden, Role::Read).expect_err("it cannot be read");
+        assert_eq!(refused.code().to_string(), "V601", "{hidden:?}");
+    }
     let service = Running::start_at(location);
     let config = ureq::Agent::config_builder().http_status_as_error(false).build();
     let agent: ureq::Agent = config.into();
