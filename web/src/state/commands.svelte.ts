@@ -1,4 +1,6 @@
-// The commands of the keyboard and the palette. Views add their commands while they are shown.
+// The commands of the keyboard and the palette. Views add their commands while they are shown. An
+// open form or list covers the view: until it is closed, only commands of the whole console are
+// possible, so no key acts on what is covered.
 
 import { untrack } from 'svelte'
 import { isCharacter, keyOf, Sequence } from '../model/keys'
@@ -20,11 +22,20 @@ export interface Command {
   isByName?: boolean
   /** Whether it is currently possible; a command without this is always possible. */
   isPossible?: () => boolean
+  /** Whether it belongs to the whole console, so that an open form or list does not exclude it. */
+  isEverywhere?: boolean
   run: () => void
+}
+
+/** An open form or list, which covers the view. */
+interface Cover {
+  close: () => void
 }
 
 class Commands {
   #lists = $state.raw<readonly Command[][]>([])
+  /** The open forms and lists, the latest last. */
+  #covers = $state.raw<readonly Cover[]>([])
   readonly #sequence = new Sequence()
 
   /** All commands, those of the view before those of the shell. */
@@ -43,10 +54,45 @@ class Commands {
     }
   }
 
-  /** Runs the command of a key, if there is one. */
+  /** Covers the view with an open form or list, until the returned function is called. */
+  cover(close: () => void): () => void {
+    const cover = { close }
+    this.#covers = [...untrack(() => this.#covers), cover]
+    return () => {
+      this.#covers = untrack(() => this.#covers).filter((one) => one !== cover)
+    }
+  }
+
+  /** Whether a form or a list is open. */
+  get isCovered(): boolean {
+    return this.#covers.length > 0
+  }
+
+  /** Whether a command can run now. */
+  isPossible({ isEverywhere, isPossible }: Command): boolean {
+    return (isEverywhere === true || !this.isCovered) && isPossible?.() !== false
+  }
+
+  /** Runs a command, unless it has become impossible. */
+  run(command: Command): void {
+    if (this.isPossible(command)) command.run()
+  }
+
+  /**
+   * Runs the command of a key, if there is one. Escape closes the form or list that was opened last.
+   * A key that is held down runs its command once.
+   */
   press(event: KeyboardEvent): void {
     const key = keyOf(event)
-    if (key === undefined || event.defaultPrevented || event.isComposing || isElsewhere(event, key)) return
+    if (key === undefined || event.defaultPrevented || event.isComposing || event.repeat) return
+    if (document.querySelector('dialog[open]') !== null) return
+    const cover = this.#covers.at(-1)
+    if (key === 'Escape' && cover !== undefined) {
+      event.preventDefault()
+      cover.close()
+      return
+    }
+    if (isElsewhere(event, key)) return
     const meanings = this.#sequence.press(key, event.timeStamp)
     const command = this.#meant(meanings)
     if (command === undefined) return
@@ -58,9 +104,7 @@ class Commands {
   #meant(meanings: string[]): Command | undefined {
     for (const meaning of meanings) {
       if (isCharacter(meaning) && !preferences.hasSingleKeys) continue
-      const command = this.all.find(
-        (one) => one.keys?.includes(meaning) === true && one.isPossible?.() !== false,
-      )
+      const command = this.all.find((one) => one.keys?.includes(meaning) === true && this.isPossible(one))
       if (command !== undefined) return command
     }
     return undefined
@@ -69,9 +113,8 @@ class Commands {
 
 export const commands = new Commands()
 
-/** Whether the focused element handles the key: a field, a button, or an open dialog. */
+/** Whether the focused element handles the key: a field or a button. */
 function isElsewhere(event: KeyboardEvent, key: string): boolean {
-  if (document.querySelector('dialog[open]') !== null) return true
   const target = event.target
   if (!(target instanceof Element)) return false
   if (key.startsWith('Mod+')) return false
