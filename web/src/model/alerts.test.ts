@@ -30,12 +30,11 @@ interface Given {
   taken?: number[]
   notices?: DayState['notices']
   events?: TakenEvent[]
-  distance_mi?: number
 }
 
 function alerts(given: Given, time = SEVEN): Alert[] {
   const ids = ['V1', 'V2', 'V3']
-  const aircraft = { id: 'A01', type: 'midnight', seats: 4, battery_kwh: 140, energy_kwh_per_mi: 2 }
+  const aircraft = { id: 'A01', type: 'midnight', seats: 4, battery_kwh: 140 }
   const record = {
     aircraft: [aircraft, { ...aircraft, id: 'A02' }],
     vertiports: ids.map((id) => ({ id, stands: 6 })),
@@ -48,9 +47,8 @@ function alerts(given: Given, time = SEVEN): Alert[] {
     vertiports: ids.map((id, at) => ({ id, stands: 6, taken: given.taken?.[at] ?? 0, closed: [] })),
     notices: given.notices ?? [],
   } as unknown as DayState
-  const distance_mi = ids.map(() => ids.map(() => given.distance_mi ?? 20))
   const aircraft_types = [{ id: 'midnight', reserve_kwh: 20 }]
-  const scenario = { distance_mi, aircraft_types } as unknown as Scenario
+  const scenario = { aircraft_types } as unknown as Scenario
   return alertsOf({ scenario, state, record, events: given.events ?? [], time })
 }
 
@@ -94,8 +92,8 @@ describe('alerts', () => {
   it('name outages without an end, and flights that land with little charge', () => {
     const outages = [{ aircraft: 1, since: SEVEN - 60 }]
     expect(alerts({ outages })[0]).toMatchObject({ matter: { aircraft: 'A02', until: undefined } })
-    const flight = leg({ awaited: { report: 'landing', due: SEVEN + 600 } })
-    const low = alerts({ legs: [flight], distance_mi: 66.5 })
+    const flight = leg({ awaited: { report: 'landing', due: SEVEN + 600 }, energy_kwh: 133 })
+    const low = alerts({ legs: [flight] })
     expect(low.map(({ matter }) => matter)).toEqual([
       { kind: 'low_charge', aircraft: 'A01', to: 'V2', percent: 5 },
     ])
@@ -104,7 +102,7 @@ describe('alerts', () => {
   it('name flights below their reserve on a day that charges as needed', () => {
     const flight = (lands_with_kwh: number) =>
       leg({ awaited: { report: 'landing', due: SEVEN + 600 }, lands_with_kwh })
-    const of = (kwh: number) => alerts({ chargesAsNeeded: true, legs: [flight(kwh)], distance_mi: 66.5 })
+    const of = (kwh: number) => alerts({ chargesAsNeeded: true, legs: [flight(kwh)] })
     expect(of(20)).toEqual([])
     expect(of(7).map(({ matter }) => matter)).toEqual([
       { kind: 'low_charge', aircraft: 'A01', to: 'V2', percent: 5 },

@@ -133,8 +133,7 @@ function lowCharge(leg: LegRecord, { record, scenario }: Sources): Alert[] {
   const aircraft = record.aircraft[leg.aircraft]
   if (leg.awaited === undefined || isHold(leg) || aircraft === undefined) return []
   if (record.chargesAsNeeded === true && !isBelowReserve(leg, aircraft, scenario)) return []
-  const used_kwh = (scenario.distance_mi[leg.from]?.[leg.to] ?? 0) * aircraft.energy_kwh_per_mi
-  const left_kwh = leg.lands_with_kwh ?? aircraft.battery_kwh - used_kwh
+  const left_kwh = leg.lands_with_kwh ?? aircraft.battery_kwh - (leg.energy_kwh ?? 0)
   const left = left_kwh / aircraft.battery_kwh
   if (record.chargesAsNeeded !== true && left >= LOW_CHARGE) return []
   const [to, percent] = [record.vertiports[leg.to]?.id ?? '', Math.max(0, Math.round(100 * left))]

@@ -4,7 +4,6 @@
 import { at } from './arrays'
 import { minutesOverdue } from './awaited'
 import { Charges } from './charges'
-import { Geography } from './geography'
 import { NONE } from './motion'
 import { roomOf, staysOf, type Stay } from './occupancy'
 import type { DayRecord, LegRecord, Seconds } from './record'
@@ -77,7 +76,7 @@ export function fleetRows(record: DayRecord): FleetRow[] {
 
 /** The charges of a day that charges as needed; on other days bars have none. */
 function chargesOf(record: DayRecord): Charges | undefined {
-  return record.chargesAsNeeded === true ? new Charges(record, new Geography(record.vertiports)) : undefined
+  return record.chargesAsNeeded === true ? new Charges(record) : undefined
 }
 
 function addLeg(

@@ -1,9 +1,10 @@
 import { describe, expect, it } from 'vitest'
 import { NONE } from './arrays'
 import { fleetRows, standRows } from './bars'
+import type { Outlook } from '../api/types'
 import { Charges } from './charges'
+import { legsOf } from './expectedLegs'
 import { neededText, neededTrace, prices } from './fixtures/tiny'
-import { Geography } from './geography'
 import { Fleet, Phase } from './motion'
 import { nominal } from './nominal'
 import type { DayRecord, LegRecord } from './record'
@@ -16,7 +17,7 @@ const BATTERY_KWH = 60
 const RESERVE_KWH = 10
 
 function chargesOf(of: DayRecord): Charges {
-  return new Charges(of, new Geography(of.vertiports))
+  return new Charges(of)
 }
 
 /** A leg without what the trace knows about its charge. */
@@ -97,4 +98,40 @@ describe('a day that charges to full', () => {
     // From the program's trace of the day with `charging` removed.
     expect([ground_s(2, 0), ground_s(2, 1), ground_s(1, 2), ground_s(0, 1)]).toEqual([1333, 1353, 1321, 1329])
   })
+})
+
+describe('the energy of a flight', () => {
+  it('is that of the corridor and of the self-discharge, not of the straight line', () => {
+    const [type] = scenario.aircraft_types
+    const longer = {
+      ...scenario,
+      distance_mi: scenario.distance_mi.map((row) => row.map((miles) => 2 * miles)),
+      aircraft_types: [{ ...type, self_discharge_per_h: 0.1 }],
+    } as typeof scenario
+    const flight = record.legs.find((leg) => leg.from !== leg.to)
+    if (flight === undefined) throw new Error('nothing flies')
+    const plan = nominal(longer, flight)
+    expect(plan.energy_kwh).toBeGreaterThan(2 * nominal(scenario, flight).energy_kwh)
+    const outlook = { seq: 1, legs: [legOf(flight)] } as unknown as Outlook
+    const [expected] = legsOf(outlook, longer)
+    expect(expected?.energy_kwh).toBe(plan.energy_kwh)
+    const legs = expected === undefined ? [] : [{ ...expected, charge_kwh: BATTERY_KWH }]
+    const arriving = chargesOf({ ...record, legs }).arriving(0)
+    expect(arriving * BATTERY_KWH).toBeCloseTo(Math.max(0, BATTERY_KWH - plan.energy_kwh), 3)
+  })
+
+  it('is that of the trace, if the trace has it', () => {
+    const flown_kwh = record.legs[0]?.energy_kwh?.toString() ?? ''
+    expect(neededTrace).toContain(`,${flown_kwh},`)
+    const [leg] = recordOf(scenario, neededTrace.replace(`,${flown_kwh},`, ',12.5,')).legs
+    expect(leg?.energy_kwh).toBe(12.5)
+  })
+
+  /** A leg as an outlook has it. */
+  function legOf(leg: LegRecord) {
+    const id = (vertiport: number) => scenario.vertiports[vertiport]?.id
+    const [aircraft, from, to] = [scenario.aircraft[leg.aircraft]?.id, id(leg.from), id(leg.to)]
+    const times = { time: leg.decided, arrival: leg.arrives, ready: leg.ready }
+    return { aircraft, from, to, ...times, passengers: 1, profit_usd: 0, is_taken: false }
+  }
 })

@@ -3,10 +3,8 @@
 // ends at take-off. Charges that are known, by a trace or by the service, replace estimates.
 
 import { at, NONE } from './arrays'
-import type { Geography } from './geography'
 import { ChargeRate } from './rate'
 import type { DayRecord, LegRecord, Seconds } from './record'
-import { isHold } from './record'
 
 /** The charge at a time from which on an aircraft charges. */
 interface Known {
@@ -27,10 +25,7 @@ export class Charges {
   /** By aircraft and vertiport. */
   readonly #rates: (ChargeRate | undefined)[] = []
 
-  constructor(
-    private readonly record: DayRecord,
-    private readonly geography: Geography,
-  ) {
+  constructor(private readonly record: DayRecord) {
     this.#departs = new Float32Array(record.legs.length)
     this.#arrives = new Float32Array(record.legs.length)
     const latest = record.aircraft.map((_, aircraft) => this.#morning(aircraft))
@@ -95,15 +90,14 @@ export class Charges {
 
   /** Enters a leg, and returns the charge after it. */
   #estimate(leg: LegRecord, index: number, latest: Known): Known {
-    const { aircraft, from, to, decided, departs, arrives } = leg
-    const { battery_kwh, energy_kwh_per_mi } = at(this.record.aircraft, aircraft)
+    const { aircraft, from, decided, departs, arrives } = leg
+    const { battery_kwh } = at(this.record.aircraft, aircraft)
     const known = leg.charge_kwh
     const before = known === undefined ? latest : { share: known / battery_kwh, since: decided }
     this.#before[index] = before
     const departing = this.#charged(before, aircraft, from, departs)
     this.#departs[index] = departing
-    const energy_kwh = leg.energy_kwh ?? energy_kwh_per_mi * this.geography.distance(from, to)
-    const arriving = isHold(leg) ? departing : Math.max(0, departing - energy_kwh / battery_kwh)
+    const arriving = Math.max(0, departing - (leg.energy_kwh ?? 0) / battery_kwh)
     const share = leg.lands_with_kwh === undefined ? arriving : leg.lands_with_kwh / battery_kwh
     this.#arrives[index] = share
     return { share, since: arrives }

@@ -1,9 +1,20 @@
 import { describe, expect, it } from 'vitest'
 import type { AircraftState, DayState, Leg, Outlook, TakenEvent } from '../api/types'
 import { fleetRows } from './bars'
-import { east, events, north, outlook, recordAfter, scenario, south, state } from './fixtures/liveDay'
+import {
+  decided,
+  east,
+  events,
+  north,
+  outlook,
+  recordAfter,
+  scenario,
+  south,
+  state,
+} from './fixtures/liveDay'
+import { legsOf } from './expectedLegs'
 import { liveRecord } from './live'
-import { isHold } from './record'
+import { isHold, type LegRecord } from './record'
 import { Reports } from './reports'
 import { clock, timeOf } from './time'
 
@@ -29,7 +40,7 @@ describe('a live day that charges as needed', () => {
         return { ...one, phase: 'sent_off', arrival: '07:44:21', lands_with_kwh: 12, flight }
       })
     const { legs } = liveRecord({
-      ...{ scenario: asNeeded, reports, state: { ...state, aircraft }, outlook: undefined, flown: [] },
+      ...{ scenario: asNeeded, reports, state: { ...state, aircraft }, outlook: undefined, decided: [] },
     })
     return legs.find((leg) => leg.aircraft === a03)
   }
@@ -70,7 +81,9 @@ describe('a live day that charges as needed', () => {
       const legs = outlook.legs.map((leg) =>
         isFlight(leg) ? { ...leg, ...times, takeoff: '06:59:00' } : leg,
       )
-      const sources = { scenario: asNeeded, reports, outlook: { ...outlook, legs }, flown: [] }
+      const given = { ...outlook, legs }
+      const taken = legsOf(given, asNeeded).filter((leg) => !leg.is_expected)
+      const sources = { scenario: asNeeded, reports, outlook: given, decided: taken }
       const record = liveRecord({ ...sources, state: now })
       const bars = fleetRows(record)[a03]?.bars.filter(({ begins }) => begins >= timeOf('06:47:00')) ?? []
       return bars.map(({ kind, begins, ends }) => `${kind} ${clock(begins)}-${clock(ends)}`)
@@ -91,8 +104,10 @@ describe('a live day that charges as needed', () => {
     const legs = outlook.legs.filter((leg) => leg.aircraft === 'A03' && leg.from !== leg.to)
     const later = (time: Leg['time']) => clock(timeOf(time) + 600)
     const waiting = legs.map((leg) => ({ ...leg, takeoff: later(leg.time), arrival: later(leg.arrival) }))
-    const given = { scenario: asNeeded, reports, state: { ...state, aircraft: [] }, flown: [] }
-    const record = liveRecord({ ...given, outlook: { ...outlook, legs: waiting } })
+    const given = { ...outlook, legs: waiting }
+    const decided = legsOf(given, asNeeded).filter((leg) => !leg.is_expected)
+    const sources = { scenario: asNeeded, reports, state: { ...state, aircraft: [] }, decided }
+    const record = liveRecord({ ...sources, outlook: given })
     expect(record.legs.length).toBeGreaterThan(1)
     for (const leg of record.legs) {
       expect([leg.charged, leg.departs]).toEqual([leg.decided + 600, leg.decided + 600])
@@ -135,12 +150,36 @@ describe('the record of a live day', () => {
     expect(taken(a05)).toHaveLength(0)
   })
 
-  it('contains flights that are only in the state', () => {
-    const { legs } = recordAfter(events, null)
-    expect(legs.map((leg) => [leg.aircraft, leg.to, leg.departs])).toEqual([
-      [a02, south, timeOf('06:11:30')],
-      [a03, north, timeOf('06:47:00')],
-    ])
+  it('has every decided leg from the state and the events alone', () => {
+    const keyOf = ({ decided, aircraft, from, to, departs, arrives }: LegRecord) =>
+      [aircraft, from, to, decided, departs, arrives].join()
+    const { legs } = recordAfter(events, null, [])
+    expect(legs.map(keyOf)).toEqual(record.legs.filter((leg) => !leg.is_expected).map(keyOf))
+  })
+
+  it('moves an aircraft that is reported elsewhere without a flight', () => {
+    const aircraft = state.aircraft.map((one) => (one.id === 'A05' ? { ...one, place: 'East' } : one))
+    const sources = { scenario, reports: new Reports(scenario), outlook: undefined, decided: [] }
+    const { legs } = liveRecord({ ...sources, state: { ...state, aircraft } })
+    expect(legs.filter((leg) => leg.aircraft === a05)).toMatchObject([{ from: east, to: east }])
+  })
+
+  it('writes no landing into an earlier leg', () => {
+    // The trace and the events are older than the state, in which A01 has flown on and landed.
+    const landing = events.findIndex(({ event }) => event.type === 'landed')
+    const aircraft = state.aircraft.map((one) =>
+      one.id === 'A01' ? { ...one, place: 'East', arrival: '08:30:00', ready: '08:50:00' } : one,
+    )
+    const reports = new Reports(scenario)
+    for (const event of events.slice(0, landing + 1)) reports.take(event)
+    const { legs } = liveRecord({
+      scenario,
+      reports,
+      outlook: undefined,
+      decided,
+      state: { ...state, aircraft },
+    })
+    expect(legs.find((leg) => leg.aircraft === a01)?.arrives).toBe(timeOf('06:45:00'))
   })
 
   it('contains past flights before there is an outlook', () => {
@@ -157,8 +196,9 @@ describe('the record of a live day', () => {
       legs: outlook.legs.filter((leg) => !(leg.aircraft === 'A03' && leg.is_taken)),
     }
     const legs = recordAfter(events, older).legs.filter((leg) => leg.aircraft === a03)
-    expect(legs[0]).toMatchObject({ is_expected: false, to: north, profit_usd: 0 })
-    expect(legs.slice(1).every((leg) => leg.decided >= timeOf('07:52:21'))).toBe(true)
+    const flight = legs.findIndex((leg) => leg.from !== leg.to)
+    expect(legs[flight]).toMatchObject({ is_expected: false, to: north })
+    expect(legs.slice(flight + 1).every((leg) => leg.decided >= timeOf('07:52:21'))).toBe(true)
   })
 
   it('drops an undone flight before there is another outlook', () => {
@@ -171,7 +211,7 @@ describe('the record of a live day', () => {
       ),
     }
     const isSentOff = (state: DayState) => {
-      const { legs } = liveRecord({ scenario, reports: new Reports(scenario), state, outlook, flown: [] })
+      const { legs } = liveRecord({ scenario, reports: new Reports(scenario), state, outlook, decided })
       return legs.some((leg) => leg.aircraft === a03 && leg.to === north && !leg.is_expected)
     }
     expect(isSentOff(state)).toBe(true)

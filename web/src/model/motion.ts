@@ -72,7 +72,7 @@ export class Fleet {
     this.#legs = new Int32Array(legs.length)
     this.#decided = new Float64Array(legs.length)
     this.#sortByAircraft()
-    this.charges = new Charges(record, this.geography)
+    this.charges = new Charges(record)
   }
 
   /** A counting sort, which keeps the order of time. */

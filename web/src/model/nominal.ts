@@ -12,6 +12,7 @@ export interface Nominal {
   flight_s: Seconds
   /** From landing until the aircraft is ready. */
   ground_s: Seconds
+  /** What the flight takes from the battery, self-discharge included. */
   energy_kwh: number
 }
 
@@ -25,6 +26,7 @@ export function nominal(
 ): Nominal {
   const type = aircraft_types.find(({ id }) => id === aircraft[leg.aircraft]?.type)
   if (type === undefined) return { flight_s: 0, ground_s: 0, energy_kwh: 0 }
+  if (leg.from === leg.to) return { flight_s: 0, ground_s: 0, energy_kwh: 0 }
   const miles = distance_mi[leg.from]?.[leg.to] ?? 0
   const { takeoff_s, landing_s } = operations
   const flight_s = takeoff_s + Math.round((3600 * miles) / type.speed_mph) + landing_s
@@ -38,8 +40,8 @@ export function nominal(
 }
 
 /** A leg with the take-off that the service has of flights on days that charge as needed. */
-export function withTakeoff(scenario: Scenario, leg: LegRecord, takeoff: Leg['takeoff']): LegRecord {
+export function withTakeoff(leg: LegRecord, takeoff: Leg['takeoff']): LegRecord {
   if (takeoff == null) return leg
   const charged = timeOf(takeoff)
-  return { ...leg, departs: charged, charged, energy_kwh: nominal(scenario, leg).energy_kwh }
+  return { ...leg, departs: charged, charged }
 }

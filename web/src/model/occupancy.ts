@@ -29,8 +29,9 @@ export function staysOf(record: DayRecord): Stay[] {
   const stays = [...first]
   const current = [...first]
   record.legs.forEach((leg, index) => {
-    if (isHold(leg)) return
     const { aircraft, decided, arrives, ready } = leg
+    // A hold elsewhere is an aircraft that was moved there.
+    if (isHold(leg) && at(current, aircraft).vertiport === leg.to) return
     at(current, aircraft).leaves = decided
     const stay = {
       aircraft,

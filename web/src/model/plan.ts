@@ -2,7 +2,8 @@
 // to compare with the actual day.
 
 import type { Outlook } from '../api/types'
-import { frameOf, legsOf } from './live'
+import { legsOf } from './expectedLegs'
+import { frameOf } from './live'
 import type { DayRecord, Seconds } from './record'
 import { Reports } from './reports'
 import type { Scenario } from './scenario'
@@ -15,5 +16,5 @@ export function recordOfPlan(scenario: Scenario, outlook: Outlook, until: Second
   const { closures, outages } = new Reports(scenario)
   const legs = legsOf(outlook, scenario).filter((leg) => leg.decided <= until)
   const demand = { passengers: scenario.forecast ?? scenario.demand }
-  return { ...frameOf(scenario), legs, closures, outages, demand }
+  return { ...frameOf(scenario), legs, closures: [...closures], outages, demand }
 }

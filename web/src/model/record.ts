@@ -54,7 +54,6 @@ export interface AircraftRecord {
   seats: number
   battery_kwh: number
   charge_kw: number
-  energy_kwh_per_mi: number
   charge_curve?: [share: number, kw: number][]
   /** A full battery if absent. */
   start_charge_kwh?: number
@@ -77,7 +76,7 @@ export interface LegRecord {
   ready: Seconds
   /** When the charge suffices for the flight; only on days that charge as needed. */
   charged?: Seconds
-  /** What the flight takes, if it is not estimated by the mile. */
+  /** What the flight takes from the battery: by the trace, or by the rule in `nominal.ts`. */
   energy_kwh?: number
   /** What the battery holds at the decision and at the landing, if that is known. */
   charge_kwh?: number

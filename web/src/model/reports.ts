@@ -2,15 +2,20 @@
 // Each event is applied once and in order, so the cost is proportional to the number of events.
 
 import type { Event, RouteNames, TakenEvent } from '../api/types'
+import { Closures, isInForce, type Routes } from './closures'
 import type { ClosureRecord, OutageRecord, RouteRecord, Seconds } from './record'
 import type { Scenario, ScenarioClosure } from './scenario'
 import { timeOf } from './time'
 
 /** Facts about a decision that the service's outlook does not contain. */
 export interface ReportedDecision {
+  /** The destination of the decision, or of a departure that followed none. */
+  to?: string
   departs?: Seconds
   hasDeparted: boolean
   landed?: Seconds
+  /** Where it landed, if the report names the vertiport. */
+  landedAt?: string
   /** The charge that the aircraft landed with, if it was reported. */
   lands_with_kwh?: number
   policy?: string
@@ -26,16 +31,21 @@ export interface DemandReport extends RouteRecord {
 }
 
 export class Reports {
-  readonly closures: ClosureRecord[]
   readonly outages: OutageRecord[] = []
   /** By period and pair; only the latest report counts. */
   readonly #demand = new Map<string, DemandReport>()
   readonly periods: Seconds[]
   /** The number of the latest event that was applied. */
   seq = 0
+  /** The latest time of an event: the day's clock. */
+  #now: Seconds
+  readonly #closures: Closures
   readonly #aircraft: Map<string, number>
   readonly #vertiports: Map<string, number>
-  readonly #decisions = new Map<string, ReportedDecision>()
+  /** By aircraft and time of the decision, in order. */
+  readonly #decisions = new Map<number, Map<Seconds, ReportedDecision>>()
+  /** Decisions that no longer hold, which an older trace may contain. */
+  readonly #undone = new Set<string>()
   /** When the latest decision of each aircraft was taken. */
   readonly #latest = new Map<number, Seconds>()
 
@@ -43,20 +53,37 @@ export class Reports {
     this.#aircraft = indexed(scenario.aircraft)
     this.#vertiports = indexed(scenario.vertiports)
     this.periods = scenario.periods.map(timeOf)
-    this.closures = closuresOf(scenario, (one) => one.known === true)
+    this.#now = timeOf(scenario.operations.start)
+    const known = closuresOf(scenario, (one) => one.known === true)
+    this.#closures = new Closures(scenario.vertiports.length, known)
   }
 
   /** The known facts about the decision of an aircraft at a time. */
   decision(aircraft: number, decided: Seconds): ReportedDecision | undefined {
-    return this.#decisions.get(key(aircraft, decided))
+    return this.#decisions.get(aircraft)?.get(decided)
+  }
+
+  /** The decisions of an aircraft after a time that were not undone. */
+  decisionsAfter(aircraft: number, time: Seconds): [decided: Seconds, ReportedDecision][] {
+    const all = [...(this.#decisions.get(aircraft) ?? [])]
+    return all.slice(all.findLastIndex(([decided]) => decided <= time) + 1)
+  }
+
+  /** The closures so far, past ones and those known in advance among them. */
+  get closures(): readonly ClosureRecord[] {
+    return this.#closures.records
   }
 
   take({ seq, event }: TakenEvent): void {
     this.seq = seq
     const at = timeOf(event.time ?? 0)
+    this.#now = Math.max(this.#now, at)
     if ('aircraft' in event) this.#takeOfAircraft(event, this.#aircraftAt(event.aircraft), at)
-    else if (event.type === 'closed') this.#close(event, at)
-    else if (event.type === 'reopened') this.#reopen(event.routes, at)
+    else if (event.type === 'closed') {
+      const until = event.until == null ? {} : { until: timeOf(event.until) }
+      const reason = event.reason == null ? {} : { reason: event.reason }
+      this.#closures.close(this.#routes(event.routes), { seq, at, ...until, ...reason }, this.#now)
+    } else if (event.type === 'reopened') this.#closures.reopen(this.#routes(event.routes), this.#now)
     else this.#takeDemand(event, at)
   }
 
@@ -65,30 +92,40 @@ export class Reports {
     switch (event.type) {
       case 'decided':
         this.#latest.set(aircraft, at)
-        this.#decisions.set(key(aircraft, at), {
+        this.#enter(aircraft, at, {
+          to: event.to,
           hasDeparted: false,
           ...(event.policy == null ? {} : { policy: event.policy }),
         })
         break
       case 'undone':
-        this.#decisions.delete(key(aircraft, decided))
+        this.#undo(aircraft, decided)
         break
       case 'departed': {
-        const known = this.#decisions.get(key(aircraft, decided))
-        const time = known === undefined || known.hasDeparted ? at : decided
+        // A departure without a decision, or to another vertiport, is a decision of its own. The
+        // service enters it at the day's clock.
+        const known = this.decision(aircraft, decided)
+        const isOther = event.to != null && event.to !== known?.to
+        const isSent = known !== undefined && !known.hasDeparted && known.landed === undefined && !isOther
+        if (!isSent && known?.hasDeparted === false) this.#undo(aircraft, decided)
+        const time = isSent ? decided : this.#now
+        const to = event.to ?? known?.to
+        const base = isSent ? known : to === undefined ? {} : { to }
         this.#latest.set(aircraft, time)
-        this.#decisions.set(key(aircraft, time), { ...known, departs: at, hasDeparted: true })
+        this.#enter(aircraft, time, { ...base, departs: at, hasDeparted: true })
         break
       }
       case 'landed': {
-        const known = this.#decisions.get(key(aircraft, decided))
-        if (known === undefined) break
+        const known = this.decision(aircraft, decided)
+        // After its landing, an aircraft that is reported elsewhere has been moved.
+        if (known === undefined || known.landed !== undefined) break
         known.landed = at
+        if (event.at != null) known.landedAt = event.at
         if (event.charge_kwh != null) known.lands_with_kwh = event.charge_kwh
         break
       }
       case 'delayed': {
-        const known = this.#decisions.get(key(aircraft, decided))
+        const known = this.decision(aircraft, decided)
         if (known?.hasDeparted === false) known.departs = timeOf(event.until)
         break
       }
@@ -108,39 +145,25 @@ export class Reports {
     }
   }
 
+  /** Whether a decision was taken back, or replaced by a departure to another vertiport. */
+  isUndone(aircraft: number, decided: Seconds): boolean {
+    return this.#undone.has(`${aircraft} ${decided}`)
+  }
+
+  #undo(aircraft: number, decided: Seconds): void {
+    this.#decisions.get(aircraft)?.delete(decided)
+    this.#undone.add(`${aircraft} ${decided}`)
+  }
+
+  #enter(aircraft: number, decided: Seconds, report: ReportedDecision): void {
+    const all = this.#decisions.get(aircraft) ?? new Map<Seconds, ReportedDecision>()
+    this.#decisions.set(aircraft, all.set(decided, report))
+    this.#undone.delete(`${aircraft} ${decided}`)
+  }
+
   #endOutage(aircraft: number, at: Seconds): void {
     const outage = this.outages.findLast((one) => one.aircraft === aircraft)
     if (outage !== undefined && isInForce(outage, at)) outage.until = at
-  }
-
-  #close(event: Event & { type: 'closed' }, at: Seconds): void {
-    const closed = this.#routes(event.routes)
-    for (const former of this.closures.filter((one) => isInForce(one, at) && isOf(one, closed)))
-      former.until = at
-    this.closures.push({
-      ...closed,
-      since: at,
-      ...(event.until == null ? {} : { until: timeOf(event.until) }),
-      ...(event.reason == null ? {} : { reason: event.reason }),
-    })
-  }
-
-  /**
-   * Ends the closures of these routes. If one route of a closed vertiport opens, the closure is
-   * split into its other routes.
-   */
-  #reopen(names: RouteNames, at: Seconds): void {
-    const opened = this.#routes(names)
-    for (const closure of this.closures.filter((one) => isInForce(one, at) && touches(one, opened))) {
-      if ('vertiport' in closure && !('vertiport' in opened)) {
-        const { vertiport, ...rest } = closure
-        for (const route of this.#routesOf(vertiport)) {
-          if (route.from !== opened.from || route.to !== opened.to)
-            this.closures.push({ ...rest, ...route, since: at })
-        }
-      }
-      closure.until = at
-    }
   }
 
   get demand(): Iterable<DemandReport> {
@@ -169,18 +192,10 @@ export class Reports {
     return report
   }
 
-  #routes(names: RouteNames): RouteRecord | { vertiport: number } {
+  #routes(names: RouteNames): Routes {
     return 'vertiport' in names
       ? { vertiport: this.#vertiport(names.vertiport) }
       : { from: this.#vertiport(names.from), to: this.#vertiport(names.to) }
-  }
-
-  #routesOf(vertiport: number): RouteRecord[] {
-    const others = [...this.#vertiports.values()].filter((other) => other !== vertiport)
-    return others.flatMap((other) => [
-      { from: vertiport, to: other },
-      { from: other, to: vertiport },
-    ])
   }
 
   #period(time: Seconds): number {
@@ -203,7 +218,7 @@ export class Reports {
 export function closuresOf(
   { vertiports, closures = [] }: Scenario,
   isOne: (closure: ScenarioClosure) => boolean = () => true,
-): ClosureRecord[] {
+): (RouteRecord & { since: Seconds; until: Seconds })[] {
   const positions = indexed(vertiports)
   return closures.filter(isOne).flatMap((one) => {
     const [from, to] = [known(positions, one.from), known(positions, one.to)]
@@ -223,28 +238,4 @@ export function known(positions: Map<string, number>, id: string): number {
   const at = positions.get(id)
   if (at === undefined) throw new Error(`the scenario of the day has no "${id}"`)
   return at
-}
-
-function key(aircraft: number, decided: Seconds): string {
-  return `${aircraft}@${decided}`
-}
-
-function isInForce({ since, until }: { since: Seconds; until?: Seconds }, at: Seconds): boolean {
-  return since <= at && (until === undefined || until > at)
-}
-
-/** Whether a closure covers exactly these routes. */
-function isOf(closure: ClosureRecord, routes: RouteRecord | { vertiport: number }): boolean {
-  if ('vertiport' in closure) return 'vertiport' in routes && closure.vertiport === routes.vertiport
-  return !('vertiport' in routes) && closure.from === routes.from && closure.to === routes.to
-}
-
-/** Whether a closure covers routes that reopen, or some of them. */
-function touches(closure: ClosureRecord, opened: RouteRecord | { vertiport: number }): boolean {
-  if ('vertiport' in closure) {
-    if ('vertiport' in opened) return closure.vertiport === opened.vertiport
-    return closure.vertiport === opened.from || closure.vertiport === opened.to
-  }
-  if ('vertiport' in opened) return closure.from === opened.vertiport || closure.to === opened.vertiport
-  return closure.from === opened.from && closure.to === opened.to
 }

@@ -191,10 +191,8 @@ class TraceReader {
     if (this.#columns.has('charge_kwh')) leg.charge_kwh = number('charge_kwh')
     if (from === to) return leg
     const plan = nominal(this.scenario, leg)
-    if (this.#columns.has('takeoff')) {
-      leg.charged = time('takeoff')
-      leg.energy_kwh = plan.energy_kwh
-    }
+    leg.energy_kwh = this.#columns.has('energy_kwh') ? number('energy_kwh') : plan.energy_kwh
+    if (this.#columns.has('takeoff')) leg.charged = time('takeoff')
     this.#compareWithPlan(leg, plan)
     return leg
   }

@@ -1,5 +1,5 @@
 // A live day in the console: read once, then kept up to date by its event stream. The service knows
-// the rules, so after events its state and outlook are read again, at a limited rate.
+// the rules, so after events its state, its trace and its outlook are read again, at a limited rate.
 
 import type { Service } from '../api/client'
 import { ProblemError, UNAUTHORIZED } from '../api/problem'
@@ -37,6 +37,11 @@ const STATE_PACE = { soon_ms: 60, least_ms: 500, share: 3 }
  */
 const OUTLOOK_PACE = { soon_ms: 250, least_ms: 1_500, share: 4 }
 
+/** A plan that is behind the state for this long is shown as being computed. */
+const PLAN_LATE_MS = 2_000
+/** The answers of a service that is busy or away for the moment. */
+const PASSING = [0, 408, 429, 503, 504]
+
 const SECOND_MS = 1_000
 
 export class LiveDay {
@@ -49,14 +54,18 @@ export class LiveDay {
   silent_s = $state(0)
   /** Why the day cannot be read or followed; undefined if it can. */
   problem = $state.raw<ProblemError>()
-  /** Why there is no outlook; undefined if there is one. */
+  /** Whether the plan for the rest of the day is missing, or has been behind for a while. */
+  isPlanAwaited = $state(true)
+  #planBehindSince: number | undefined
+  /** Why there is no outlook; undefined if there is one or will be. */
   outlookProblem = $state.raw<ProblemError>()
   readonly clock = new Clock()
   #scenario = $state.raw<Scenario>()
   /** Counts the events applied to the reports, so that derived values are computed again. */
   #reported = $state(0)
   #reports: Reports | undefined
-  #flown: readonly LegRecord[] = []
+  /** The decided legs, of the trace that was read last. */
+  #decided = $state.raw<readonly LegRecord[]>([])
   readonly #service: Service
   readonly #stateRefresher = new Refresher(STATE_PACE, () => this.#readState())
   readonly #outlookRefresher = new Refresher(OUTLOOK_PACE, () => this.#readOutlook())
@@ -85,7 +94,7 @@ export class LiveDay {
     const [scenario, reports, state] = [this.#scenario, this.#reports, this.state]
     if (scenario === undefined || reports === undefined || state === undefined || this.#reported < 0)
       return undefined
-    return liveRecord({ scenario, reports, state, outlook: this.outlook, flown: this.#flown })
+    return liveRecord({ scenario, reports, state, outlook: this.outlook, decided: this.#decided })
   })
 
   /** The end of the current minute: up to here, unreported events have not happened. */
@@ -251,7 +260,7 @@ export class LiveDay {
       this.#service.trace(this.id),
     ])
     if (this.#isClosed || this.#scenario === undefined) return
-    this.#flown = recordOf(this.#scenario, trace).legs
+    this.#decided = recordOf(this.#scenario, trace).legs
     this.#reports = new Reports(this.#scenario)
     this.whereabouts = new Whereabouts()
     this.events = []
@@ -288,7 +297,18 @@ export class LiveDay {
     this.silent_s = 0
   }
 
+  /** Notes since when the plan has been behind the state. */
+  #notePlan(): void {
+    const isBehind = (this.outlook?.seq ?? -1) < (this.state?.seq ?? 0)
+    if (!isBehind) this.#planBehindSince = undefined
+    else this.#planBehindSince ??= performance.now()
+    const since = this.#planBehindSince
+    this.isPlanAwaited =
+      this.outlook === undefined || (since !== undefined && performance.now() - since >= PLAN_LATE_MS)
+  }
+
   #listen(): void {
+    this.#notePlan()
     this.silent_s = Math.floor((performance.now() - this.#heardAt) / SECOND_MS)
   }
 
@@ -326,6 +346,9 @@ export class LiveDay {
   async #readState(): Promise<void> {
     try {
       this.#takeState(await this.#service.state(this.id))
+      // The trace is read after the state, so it has every leg of it.
+      const trace = await this.#service.trace(this.id)
+      if (this.#scenario !== undefined) this.#decided = recordOf(this.#scenario, trace).legs
     } catch (problem) {
       this.#fail(problem)
     }
@@ -333,6 +356,7 @@ export class LiveDay {
 
   #takeState(state: DayState): void {
     this.state = state
+    this.#notePlan()
     const now = timeOf(state.now)
     this.clock.setAwaited(state.aircraft.some((one) => one.needs_decision))
     if (this.isOver) this.clock.end(now)
@@ -343,9 +367,12 @@ export class LiveDay {
     try {
       this.outlook = await this.#service.outlook(this.id)
       this.outlookProblem = undefined
+      this.#notePlan()
     } catch (problem) {
-      if (problem instanceof ProblemError) this.outlookProblem = problem
-      else throw problem
+      if (!(problem instanceof ProblemError)) throw problem
+      // A service that is busy is asked again; no event may follow for a while.
+      if (isPassing(problem)) this.#outlookRefresher.request()
+      else this.outlookProblem = problem
     }
   }
 
@@ -354,4 +381,8 @@ export class LiveDay {
     // The stream shows that the connection is lost and triggers a read when it is back.
     if (problem.status !== 0 || this.state === undefined) this.problem = problem
   }
+}
+
+function isPassing({ status }: ProblemError): boolean {
+  return PASSING.includes(status)
 }

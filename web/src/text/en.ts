@@ -145,6 +145,7 @@ export const en = {
       'A flight counts from its decision on, before it departs. If the decision is undone, it no longer counts.',
     expected: 'Expected',
     expectedBy: (policy: string) => `with ${policy}`,
+    planning: 'plan is being computed…',
     expectedHint: (policy: string) => `The profit of the day if ${policy} takes every decision from now on.`,
     bound: 'Upper bound',
     boundHint:
@@ -275,6 +276,7 @@ export const en = {
 
   expected: {
     title: 'Expected next',
+    planning: 'The plan for the rest of the day is being computed.',
     by: (policy: string) => `if ${policy} decides`,
     hold: (at: string) => `holds at ${at}`,
     route: (from: string, to: string) => `${from} → ${to}`,

@@ -112,6 +112,12 @@ export class Fleet {
   }
 
   async ask(method: string, path: string, body?: unknown): Promise<unknown> {
+    const text = await this.text(path, method, body)
+    return text === '' ? undefined : (JSON.parse(text) as unknown)
+  }
+
+  /** The answer to a request as text. */
+  async text(path: string, method = 'GET', body?: unknown): Promise<string> {
     const answer = await fetch(this.url + path, {
       method,
       headers: this.token === undefined ? {} : { Authorization: `Bearer ${this.token}` },
@@ -119,7 +125,7 @@ export class Fleet {
     })
     const text = await answer.text()
     if (!answer.ok) throw new Error(`${method} ${path}: ${text}`)
-    return text === '' ? undefined : (JSON.parse(text) as unknown)
+    return text
   }
 
   async state(): Promise<DayState> {
