@@ -50,11 +50,19 @@ function describeAircraft({ record, frame, fleet }: Scene, aircraft: number): st
   return [...lines, text.aircraft.landsWith(count(landing * battery_kwh))]
 }
 
-/** What an aircraft does; one that waits for charge is not delayed. */
+/**
+ * What an aircraft does. One that waits for charge is not delayed, and one that was dispatched is
+ * only when it is to leave later than decided.
+ */
 function phaseOf(leg: LegRecord | undefined, phase: Phase, time: Seconds): string {
   if (phase === Phase.delayed && leg?.charged !== undefined && time < leg.charged)
     return text.map.chargesForFlight
+  if (phase === Phase.delayed && leg !== undefined && !isDelayed(leg, time)) return text.map.dispatched
   return text.map.phases[phaseNames[phase]]
+}
+
+function isDelayed(leg: LegRecord, time: Seconds): boolean {
+  return leg.departs > (leg.charged ?? leg.decided) || minutesOverdue(leg, time) > 0
 }
 
 function describeLeg(leg: LegRecord, phase: Phase, time: Seconds, names: string[], seats: number): string[] {

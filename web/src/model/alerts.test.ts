@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest'
 import type { DayState, TakenEvent } from '../api/types'
-import { alertsOf, type Alert } from './alerts'
+import { alertsOf, headlineOf, listed, type Alert } from './alerts'
 import type { DayRecord, LegRecord } from './record'
 import type { Scenario } from './scenario'
 
@@ -36,6 +36,7 @@ function alerts(given: Given, time = SEVEN): Alert[] {
   const ids = ['V1', 'V2', 'V3']
   const aircraft = { id: 'A01', type: 'midnight', seats: 4, battery_kwh: 140 }
   const record = {
+    start: SEVEN,
     aircraft: [aircraft, { ...aircraft, id: 'A02' }],
     vertiports: ids.map((id) => ({ id, stands: 6 })),
     legs: given.legs ?? [],
@@ -44,6 +45,7 @@ function alerts(given: Given, time = SEVEN): Alert[] {
     chargesAsNeeded: given.chargesAsNeeded,
   } as unknown as DayRecord
   const state = {
+    aircraft: [],
     vertiports: ids.map((id, at) => ({ id, stands: 6, taken: given.taken?.[at] ?? 0, closed: [] })),
     notices: given.notices ?? [],
   } as unknown as DayState
@@ -73,8 +75,8 @@ describe('alerts', () => {
   it('distinguish a full vertiport from one with more aircraft than stands', () => {
     const found = alerts({ taken: [6, 7, 5] })
     expect(found.map(({ key, severity }) => [key, severity])).toEqual([
-      ['over_full V2', 'critical'],
-      ['full V1', 'notice'],
+      [`over_full V2 ${SEVEN}`, 'critical'],
+      [`full V1 ${SEVEN}`, 'notice'],
     ])
   })
 
@@ -82,10 +84,10 @@ describe('alerts', () => {
     const closures = [{ vertiport: 1, since: SEVEN - 600, until: SEVEN + 600 }]
     const [alert, ...others] = alerts({ closures })
     expect(others).toEqual([])
-    expect(alert).toMatchObject({ severity: 'warning', matter: { what: 'V2', underWay: 0 } })
+    expect(alert).toMatchObject({ severity: 'warning', matter: { what: 'V2', underWay: [] } })
     const flight = leg({ awaited: { report: 'landing', due: SEVEN + 60 } })
     const [struck] = alerts({ closures, legs: [flight] })
-    expect(struck).toMatchObject({ severity: 'critical', matter: { underWay: 1 } })
+    expect(struck).toMatchObject({ severity: 'critical', matter: { underWay: ['A01'] } })
     expect(alerts({ closures }, SEVEN + 600)).toEqual([])
   })
 
@@ -111,9 +113,9 @@ describe('alerts', () => {
 
   it('include notices of events, and current notices only if no other alert covers them', () => {
     const notices = [
-      { seq: 4, text: 'aircraft "A02" landed at "V1" instead of "V3"' },
-      { seq: null, text: 'vertiport "V1" has 7 aircraft on its 6 stands or on their way there' },
-      { seq: null, text: 'vertiport "V2" has 7 aircraft on its 6 stands or on their way there' },
+      { seq: 4, code: 'diverted', aircraft: 'A02', text: 'aircraft "A02" landed at "V1" instead of "V3"' },
+      { seq: null, code: 'more_than_stands', vertiport: 'V1', text: 'vertiport "V1" has 7 aircraft' },
+      { seq: null, code: 'more_than_stands', vertiport: 'V2', text: 'vertiport "V2" has 7 aircraft' },
     ]
     const event = { type: 'landed', aircraft: 'A02', time: '06:58:00' }
     const events = [{ seq: 4, event }] as unknown as TakenEvent[]
@@ -130,4 +132,55 @@ describe('alerts', () => {
 it('alerts about the same subject are one', () => {
   const closure = { from: 0, to: 1, since: SEVEN - 60, until: SEVEN + 60 }
   expect(alerts({ closures: [closure, closure] })).toHaveLength(1)
+})
+
+describe('a flight without the energy for its way', () => {
+  const text = 'aircraft "A01" departs without the energy for its flight'
+  const without = { code: 'without_energy', aircraft: 'A01', vertiport: 'V2', text }
+
+  it('is one critical alert, above a closed route and a report that is long overdue', () => {
+    const closures = [{ from: 0, to: 1, since: SEVEN - 3600 }]
+    const long = leg({ aircraft: 1, awaited: { report: 'landing', due: SEVEN - 1800 }, arrives: SEVEN + 60 })
+    const notices = [
+      { ...without, seq: 4 },
+      { ...without, seq: null },
+    ]
+    const found = alerts({ closures, legs: [long], notices })
+    expect(found[0]).toMatchObject({ severity: 'critical', matter: { kind: 'notice', text } })
+    expect(found.filter(({ matter }) => matter.kind === 'notice')).toHaveLength(1)
+  })
+
+  it('has low charge above a closed route that is as severe', () => {
+    const closures = [{ from: 0, to: 2, since: SEVEN - 3600 }]
+    const low = leg({ awaited: { report: 'landing', due: SEVEN + 600 }, energy_kwh: 133 })
+    expect(alerts({ closures, legs: [low] }).map(({ matter }) => matter.kind)).toEqual([
+      'low_charge',
+      'closed',
+    ])
+    const below = leg({ awaited: { report: 'landing', due: SEVEN + 600 }, lands_with_kwh: -3 })
+    expect(alerts({ chargesAsNeeded: true, closures, legs: [below] })[0]?.severity).toBe('critical')
+  })
+})
+
+describe('the headline', () => {
+  it('is no full vertiport, which stays in the list', () => {
+    const full = alerts({ taken: [0, 6, 0] })
+    expect(headlineOf(listed(full, []))).toBeUndefined()
+    expect(full.map(({ matter }) => matter.kind)).toEqual(['full'])
+  })
+
+  it('is the first alert that was not acknowledged by any user', () => {
+    const outages = [
+      { aircraft: 0, since: SEVEN - 60 },
+      { aircraft: 1, since: SEVEN - 30 },
+    ]
+    const found = alerts({ outages })
+    const by = { seq: 7, actor: 'anna', time: '07:00:00' }
+    const all = listed(found, [{ ...by, alert: found[0]?.key ?? '' }])
+    expect(headlineOf(all)?.key).toBe(found[1]?.key)
+    expect(all.at(-1)).toMatchObject({ key: found[0]?.key, acknowledgedBy: 'anna' })
+    // The same alert at a later time is a new one.
+    const again = alerts({ outages: [{ aircraft: 0, since: SEVEN - 1 }] })
+    expect(listed(again, [{ ...by, alert: found[0]?.key ?? '' }])[0]?.acknowledgedBy).toBeUndefined()
+  })
 })

@@ -17,7 +17,7 @@ export type Severity = (typeof SEVERITIES)[number]
 export type Matter =
   | { kind: 'overdue'; aircraft: string; to: string; report: 'departure' | 'landing'; due: Seconds }
   | { kind: 'over_full' | 'full'; vertiport: string; taken: number; stands: number }
-  | { kind: 'closed'; what: string; until: Seconds | undefined; underWay: number }
+  | { kind: 'closed'; what: string; until: Seconds | undefined; underWay: readonly string[] }
   | { kind: 'out_of_service'; aircraft: string; until: Seconds | undefined }
   | { kind: 'low_charge'; aircraft: string; to: string; percent: number }
   | { kind: 'notice'; text: string }
@@ -37,6 +37,23 @@ export interface Alert {
 const LONG_OVERDUE_MIN = 15
 /** A flight that lands with a smaller share of its battery raises an alert. */
 const LOW_CHARGE = 0.1
+/**
+ * Which of equally severe alerts comes first: a flight that may not reach its vertiport before a
+ * route that others cannot take.
+ */
+const ORDER: readonly Matter['kind'][] = [
+  'notice',
+  'low_charge',
+  'overdue',
+  'over_full',
+  'out_of_service',
+  'closed',
+  'full',
+]
+/** Notices about a flight that cannot be flown with the energy on board. */
+const WITHOUT_ENERGY = 'without_energy'
+/** Notices that another alert of the console has, by their aircraft or vertiport. */
+const COVERED = { overdue: 'overdue', more_than_stands: 'over_full', below_reserve: 'low_charge' } as const
 /** The service counts whole milliwatt-hours. */
 const ROUNDING_KWH = 1e-5
 
@@ -48,12 +65,12 @@ interface Sources {
   time: Seconds
 }
 
-/** All alerts at one time, the most severe first; equally severe ones by age, the oldest first. */
+/** All alerts at one time, the most severe first; equally severe ones by kind and age. */
 export function alertsOf(sources: Sources): Alert[] {
   const legs = sources.record.legs.filter((leg) => !leg.is_expected)
   const found = [
     ...legs.flatMap((leg) => overdue(leg, sources.record)),
-    ...crowded(sources),
+    ...crowded(legs, sources),
     ...closed(legs, sources),
     ...outOfService(sources),
     ...legs.flatMap((leg) => lowCharge(leg, sources)),
@@ -61,7 +78,10 @@ export function alertsOf(sources: Sources): Alert[] {
   const all = new Map([...found, ...notices(sources, found)].map((alert) => [alert.key, alert]))
   const rank = ({ severity }: Alert) => SEVERITIES.indexOf(severity)
   return [...all.values()].sort(
-    (one, other) => rank(one) - rank(other) || (one.since ?? Infinity) - (other.since ?? Infinity),
+    (one, other) =>
+      rank(one) - rank(other) ||
+      ORDER.indexOf(one.matter.kind) - ORDER.indexOf(other.matter.kind) ||
+      (one.since ?? Infinity) - (other.since ?? Infinity),
   )
 }
 
@@ -82,16 +102,18 @@ function overdue(leg: LegRecord, record: DayRecord): Alert[] {
   ]
 }
 
-function crowded({ state }: Sources): Alert[] {
+function crowded(legs: LegRecord[], { state, record }: Sources): Alert[] {
   return state.vertiports.flatMap(({ id, taken, stands }, vertiport): Alert[] => {
     if (taken < stands) return []
     const kind = taken > stands ? 'over_full' : 'full'
+    // Since the latest aircraft was sent there; the same for every console.
+    const since = legs.findLast((leg) => leg.to === vertiport && !isHold(leg))?.decided ?? record.start
     return [
       {
-        key: `${kind} ${id}`,
+        key: `${kind} ${id} ${since}`,
         severity: kind === 'full' ? 'notice' : 'critical',
         matter: { kind, vertiport: id, taken, stands },
-        since: undefined,
+        since,
         target: { kind: 'vertiport', vertiport },
       },
     ]
@@ -105,10 +127,12 @@ function closed(legs: LegRecord[], { record, time }: Sources): Alert[] {
     const isMeant = ({ from, to }: LegRecord) =>
       'vertiport' in closure ? to === vertiport : from === closure.from && to === closure.to
     const what = 'vertiport' in closure ? id(vertiport) : `${id(closure.from)} → ${id(vertiport)}`
-    const underWay = legs.filter((leg) => leg.awaited !== undefined && isMeant(leg)).length
+    const underWay = legs
+      .filter((leg) => leg.awaited !== undefined && isMeant(leg))
+      .map((leg) => record.aircraft[leg.aircraft]?.id ?? '')
     return {
       key: `closed ${what} ${closure.since}`,
-      severity: underWay > 0 ? 'critical' : 'warning',
+      severity: underWay.length > 0 ? 'critical' : 'warning',
       matter: { kind: 'closed', what, until: closure.until, underWay },
       since: closure.since,
       target: { kind: 'vertiport', vertiport },
@@ -140,7 +164,8 @@ function lowCharge(leg: LegRecord, { record, scenario }: Sources): Alert[] {
   return [
     {
       key: `charge ${aircraft.id} ${leg.decided}`,
-      severity: 'notice',
+      // Below its reserve a flight is an emergency; on days that charge to full, it is as planned.
+      severity: record.chargesAsNeeded === true || left_kwh < 0 ? 'critical' : 'warning',
       matter: { kind: 'low_charge', aircraft: aircraft.id, to, percent },
       since: leg.departs,
       target: { kind: 'aircraft', aircraft: leg.aircraft },
@@ -166,29 +191,59 @@ function isBelowReserve(
  * covers.
  */
 function notices({ state, events, record }: Sources, found: readonly Alert[]): Alert[] {
-  const known = new Set(found.map(({ matter }) => aboutOf(matter)))
-  return state.notices.flatMap(({ seq, text }): Alert[] => {
-    const about = /^(?:aircraft|vertiport) "([^"]*)"/.exec(text)?.[1]
-    if (seq == null && about !== undefined && known.has(about)) return []
+  const covered = new Set(found.map(({ matter }) => aboutOf(matter)))
+  const underWay = new Map(state.aircraft.map(({ id, flight }) => [id, flight?.decided ?? '']))
+  return state.notices.flatMap(({ seq, code, text, aircraft, vertiport }): Alert[] => {
+    const about = aircraft ?? vertiport ?? undefined
+    if (seq == null && covered.has(`${COVERED[code as keyof typeof COVERED]} ${about}`)) return []
+    // A lack of energy is a notice of the report and of the flight; it is one alert.
+    if (seq != null && code === WITHOUT_ENERGY && state.notices.some((one) => isSameNow(one, code, aircraft)))
+      return []
     const event = events.find((taken) => taken.seq === seq)?.event
-    const id = event !== undefined && 'aircraft' in event ? event.aircraft : undefined
-    const aircraft = record.aircraft.findIndex((one) => one.id === id)
+    const flight = aircraft == null ? '' : (underWay.get(aircraft) ?? '')
+    const place = record.aircraft.findIndex(({ id }) => id === aircraft)
     return [
       {
-        key: `notice ${seq ?? 'now'} ${text}`,
-        severity: 'warning',
+        key: `notice ${code} ${about ?? ''} ${seq ?? flight}`,
+        severity: code === WITHOUT_ENERGY ? 'critical' : 'warning',
         matter: { kind: 'notice', text },
         since: event?.time == null ? undefined : timeOf(event.time),
-        target: aircraft < 0 ? undefined : { kind: 'aircraft', aircraft },
+        target: place < 0 ? undefined : { kind: 'aircraft', aircraft: place },
       },
     ]
   })
 }
 
-/** The aircraft or vertiport of an overdue or over-full alert, which the service reports too. */
-function aboutOf(matter: Matter): string | undefined {
-  if (matter.kind === 'overdue') return matter.aircraft
-  return matter.kind === 'over_full' ? matter.vertiport : undefined
+function isSameNow(
+  other: DayState['notices'][number],
+  code: string,
+  aircraft: string | null | undefined,
+): boolean {
+  return other.seq == null && other.code === code && other.aircraft === aircraft
+}
+
+/** The kind and subject of an alert that the service has a notice about too. */
+function aboutOf(matter: Matter): string {
+  if (matter.kind === 'overdue' || matter.kind === 'low_charge') return `${matter.kind} ${matter.aircraft}`
+  return 'vertiport' in matter ? `${matter.kind} ${matter.vertiport}` : matter.kind
+}
+
+export interface ListedAlert extends Alert {
+  /** Who acknowledged it; empty without tokens, undefined if it is open. */
+  acknowledgedBy: string | undefined
+}
+
+/** The alerts with their acknowledgements, open ones first. The service has these for all users. */
+export function listed(alerts: readonly Alert[], acknowledged: DayState['acknowledged']): ListedAlert[] {
+  const by = new Map(acknowledged.map(({ alert, actor }) => [alert, actor]))
+  const all = alerts.map((alert) => ({ ...alert, acknowledgedBy: by.get(alert.key) }))
+  const rank = ({ acknowledgedBy }: ListedAlert) => Number(acknowledgedBy !== undefined)
+  return all.sort((one, other) => rank(one) - rank(other))
+}
+
+/** The alert for the headline. A full vertiport is in the list only, because it is an everyday state. */
+export function headlineOf(alerts: readonly ListedAlert[]): ListedAlert | undefined {
+  return alerts.find(({ acknowledgedBy, matter }) => acknowledgedBy === undefined && matter.kind !== 'full')
 }
 
 function isNow(time: Seconds): (one: { since: Seconds; until?: Seconds }) => boolean {

@@ -101,7 +101,7 @@ export function decidedLegs(
       const { flight_s, ground_s } = nominal(scenario, leg)
       const isFlight = from !== to
       const arrives = isFlight ? (landed ?? decided + flight_s) : decided
-      const ready = isFlight ? arrives + ground_s : decided + (scenario.operations.hold_s ?? 0)
+      const ready = isFlight ? arrives + ground_s : decided + scenario.operations.hold_s
       from = landedAt === undefined ? to : known(places, landedAt)
       return reported({ ...leg, arrives, ready })
     })
@@ -137,7 +137,8 @@ export function decidedLegs(
     const { flight_s, energy_kwh } = nominal(scenario, leg)
     const arrives = charged + flight_s
     const charge = report?.lands_with_kwh === undefined ? {} : { lands_with_kwh: report.lands_with_kwh }
-    const { planned: _, ...rest } = leg
+    const rest = { ...leg }
+    delete rest.planned
     const known = { energy_kwh, ...rest, ...policy, ...charge, departs }
     if (departs === charged && leg.arrives === arrives) return known
     const planned = { departs: charged, arrives, ready: arrives + leg.ready - leg.arrives }

@@ -13,6 +13,8 @@ import {
   waitingOf,
   waitOf,
   worthOf,
+  leadOf,
+  numberOf,
 } from './decisions'
 import { events, state } from './fixtures/liveDay'
 import type { DayRecord } from './record'
@@ -132,17 +134,17 @@ describe('a proposal', () => {
     expect(kindOfNumber({ ...unpriced, policy: 'greedy' })).toBe('dollars_per_hour')
   })
 
-  it('ranks every choice by worth if the policy considered few, and keeps its values', () => {
+  it('ranks by what the policy compares, the advised choice first, and then by worth', () => {
     const considered = new Set(['V4', 'V1'])
     const alternatives = proposal.alternatives.map((one) => ({
       ...one,
       value: considered.has(one.to) ? (one.worth_usd ?? 0) + 20 : null,
     }))
     const learned = { ...proposal, policy: 'gcaps-x', to: 'V4', alternatives }
-    expect(ranked(learned).possible.map((one) => one.to)).toEqual(['V2', 'V1', 'V4', 'V5'])
+    expect(ranked(learned).possible.map((one) => one.to)).toEqual(['V4', 'V1', 'V2', 'V5'])
     const [first, , third] = ranked(learned).possible
-    expect(first && worthOf(first)?.value_usd).toBeUndefined()
-    expect(third && worthOf(third)?.value_usd).toBeCloseTo(857.61)
+    expect(first && numberOf(first)).toBeCloseTo(857.61)
+    expect(third && worthOf(third)?.value_usd).toBeUndefined()
   })
 
   it('is the same advice while the choice, its rank and the rules are the same', () => {
@@ -151,9 +153,18 @@ describe('a proposal', () => {
       alternatives: proposal.alternatives.map((one) => (one.to === to ? { ...one, ...more } : one)),
     })
     expect(isSameAdvice(proposal, changed('V2', { value: 850, worth_usd: 850 }))).toBe(true)
-    expect(isSameAdvice(proposal, changed('V4', { worth_usd: 846 }))).toBe(false)
+    expect(isSameAdvice(proposal, changed('V4', { value: 846, worth_usd: 846 }))).toBe(false)
     expect(isSameAdvice(proposal, changed('V3', { impossible: undefined }))).toBe(false)
     expect(isSameAdvice(proposal, { ...proposal, to: 'V4' })).toBe(false)
+  })
+
+  it('has the lead of the advised choice over the next, with the part that differs most', () => {
+    const lead = leadOf(proposal)
+    const [first, second] = ranked(proposal).possible
+    expect(lead?.of).toBe(second?.to)
+    expect(lead?.by).toBeCloseTo((first?.worth_usd ?? 0) - (second?.worth_usd ?? 0))
+    expect(lead?.part?.by_usd).toBeGreaterThan(0)
+    expect(leadOf({ ...proposal, alternatives: proposal.alternatives.slice(0, 1) })).toBeUndefined()
   })
 
   it('is worth the sum of its parts', () => {

@@ -94,14 +94,19 @@ export class Steady<T extends { id: string }> {
   }
 }
 
-/** The possible choices by their displayed number, the highest first, and the impossible ones. */
+/**
+ * The possible choices in the order of what the policy compares, the advised one first, and the
+ * impossible ones. Choices that the policy does not consider follow by their worth.
+ */
 export function ranked(proposal: Proposal): { possible: Alternative[]; impossible: Alternative[] } {
   const possible = proposal.alternatives.filter((one) => one.impossible == null)
-  const rank = (one: Alternative) => numberOf(one) ?? -Infinity
   const isAdvised = (one: Alternative) => Number(one.to === proposal.to)
   possible.sort(
     (one, other) =>
-      compare(rank(other), rank(one)) || isAdvised(other) - isAdvised(one) || one.to.localeCompare(other.to),
+      isAdvised(other) - isAdvised(one) ||
+      compare(other.value ?? -Infinity, one.value ?? -Infinity) ||
+      compare(other.worth_usd ?? -Infinity, one.worth_usd ?? -Infinity) ||
+      one.to.localeCompare(other.to),
   )
   return { possible, impossible: proposal.alternatives.filter((one) => one.impossible != null) }
 }
@@ -111,12 +116,37 @@ function compare(one: number, other: number): number {
 }
 
 /**
- * The displayed number of a choice: its worth at the bid prices if the policy has prices, otherwise
- * the value that the policy compares. Policies with prices have a worth for every choice; others
- * have a value only for choices that they consider.
+ * The displayed number of a choice: the value that the policy compares. Policies with prices have a
+ * worth at these for choices too that they do not consider.
  */
 export function numberOf({ worth_usd, value }: Alternative): number | undefined {
-  return worth_usd ?? value ?? undefined
+  return value ?? worth_usd ?? undefined
+}
+
+/** How far the advised choice is ahead of the next, and by what; undefined if it is the only one. */
+export interface Lead {
+  of: string
+  by: number
+  /** The part of the worth that differs most, if the policy has prices. */
+  part: { name: 'flight' | 'onward' | 'stand'; by_usd: number } | undefined
+}
+
+export function leadOf(proposal: Proposal): Lead | undefined {
+  const [first, second] = ranked(proposal).possible
+  const [mine, other] = [first && numberOf(first), second && numberOf(second)]
+  if (first === undefined || second === undefined || mine === undefined || other === undefined)
+    return undefined
+  const [own, next] = [worthOf(first), worthOf(second)]
+  const parts =
+    own === undefined || next === undefined
+      ? []
+      : [
+          { name: 'flight' as const, by_usd: own.flight_usd - next.flight_usd },
+          { name: 'onward' as const, by_usd: own.onward_usd - next.onward_usd },
+          { name: 'stand' as const, by_usd: own.stand_usd - next.stand_usd },
+        ]
+  const [part] = parts.sort((one, another) => another.by_usd - one.by_usd)
+  return { of: second.to, by: mine - other, part: part !== undefined && part.by_usd > 0 ? part : undefined }
 }
 
 /** The kind of the displayed number; `none` is the score of a neural network, which has no unit. */

@@ -58,7 +58,8 @@ export function isWanted(
   )
     return false
   if (filter.text === '') return true
-  const searched = `${textOf(taken).words} ${actor} ${taken.notices.join(' ')} ${taken.seq}`.toLowerCase()
+  const searched =
+    `${textOf(taken).words} ${actor} ${taken.notices.map((notice) => notice.text).join(' ')} ${taken.seq}`.toLowerCase()
   return filter.text
     .toLowerCase()
     .split(/\s+/)

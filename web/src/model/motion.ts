@@ -144,7 +144,9 @@ export class Fleet {
     } else {
       this.#stand(one, leg.to, frame)
       frame.phases[one] = time < leg.ready ? Phase.charging : Phase.waiting
-      frame.charges[one] = this.charges.after(position, time)
+      // Where aircraft charge to full, one that is ready is full.
+      const isFull = time >= leg.ready && this.record.chargesAsNeeded !== true
+      frame.charges[one] = isFull ? 1 : this.charges.after(position, time)
     }
   }
 

@@ -109,3 +109,23 @@ describe('the clock of a day', () => {
     expect(pace.at(3_600_000)).toBeGreaterThanOrEqual(25_200)
   })
 })
+
+describe('a jump of the clock', () => {
+  it('is no measure of the speed', () => {
+    const pace = new Pace()
+    pace.observe(21_600, 0)
+    pace.observe(21_660, 60_000)
+    pace.observe(32_460, 63_000)
+    expect(pace.speed).toBe(0)
+    expect(pace.latest).toBe(32_460)
+    pace.observe(32_462, 65_000)
+    expect(pace.speed).toBeCloseTo(1, 5)
+  })
+
+  it('is told from a fast day by its speed so far', () => {
+    const pace = new Pace()
+    for (let at = 0; at < 30; at++) pace.observe(21_600 + 60 * at, 100 * at)
+    pace.observe(24_300, 4_500)
+    expect(pace.speed).toBeCloseTo(600, 5)
+  })
+})

@@ -20,6 +20,9 @@ const CATCH_UP_MS = 700
  * A clock that is further behind than this, in real time, jumps: the user has returned to the page.
  */
 const JUMP_MS = 4_000
+/** A step of the day's time is a jump if it is this long, and this many times as fast as before. */
+const LEAST_JUMP_S = 600
+const JUMP_FACTOR = 20
 /** Without news the clock runs this many times as long as the longest silence so far. */
 const RUN_ON_FACTOR = 1.5
 const LEAST_RUN_ON_MS = 1_500
@@ -55,9 +58,20 @@ export class Pace {
   observe(time: Seconds, at_ms: number): void {
     const latest = this.#news.at(-1)
     if (latest !== undefined && time <= latest.time) return
+    if (latest !== undefined && this.#isJump(latest, { time, at_ms })) this.#news = []
     this.#news.push({ time, at_ms })
     const old = this.#news.findIndex((news) => news.at_ms >= at_ms - WINDOW_MS)
     if (old > 0) this.#news = this.#news.slice(Math.max(0, Math.min(old, this.#news.length - 2)))
+  }
+
+  /**
+   * Whether the time was set forward, as by a report of the clock. Such a step is no measure of the
+   * speed.
+   */
+  #isJump(latest: News, { time, at_ms }: News): boolean {
+    const step_s = time - latest.time
+    const passed_s = Math.max(LEAST_OBSERVED_MS, at_ms - latest.at_ms) / 1000
+    return step_s > LEAST_JUMP_S && step_s > JUMP_FACTOR * Math.max(1, this.speed) * passed_s
   }
 
   /** Seconds of the day per second; 0 while unknown. */

@@ -26,6 +26,13 @@ describe('an event from the form', () => {
     expect(eventOf('ready', { ...fields, charge_kwh: 41.5 })).toEqual({ type: 'ready', aircraft: 'A01' })
   })
 
+  it('has a diversion and the passengers if they are given', () => {
+    const given = { ...fields, place: 'V3', passengers: 0 }
+    expect(eventOf('departed', given)).toEqual({ type: 'departed', aircraft: 'A01', to: 'V3', passengers: 0 })
+    expect(eventOf('landed', given)).toEqual({ type: 'landed', aircraft: 'A01', at: 'V3' })
+    expect(eventOf('ready', given)).toEqual({ type: 'ready', aircraft: 'A01' })
+  })
+
   it('is undefined if a required time is missing or invalid', () => {
     expect(eventOf('delayed', { ...fields, until: '' })).toBeUndefined()
     expect(eventOf('out_of_service', { ...fields, until: 'noon' })).toBeUndefined()
@@ -38,7 +45,7 @@ describe('an event from the form', () => {
   it('can be of every kind', () => {
     for (const kind of reportKinds) {
       expect(eventOf(kind, { ...fields, to: 'V2' })?.type).toBe(kind)
-      expect(Object.keys(fieldsOf(kind))).toHaveLength(6)
+      expect(Object.keys(fieldsOf(kind))).toHaveLength(8)
     }
   })
 })

@@ -76,6 +76,7 @@ export class Reports {
 
   take({ seq, event }: TakenEvent): void {
     this.seq = seq
+    if (event.type === 'corrected' || event.type === 'acknowledged') return
     const at = timeOf(event.time ?? 0)
     this.#now = Math.max(this.#now, at)
     if ('aircraft' in event) this.#takeOfAircraft(event, this.#aircraftAt(event.aircraft), at)

@@ -115,6 +115,12 @@ export class Advisor {
     })
   }
 
+  /** Decides for an aircraft as the policy advises at present, whatever advice is displayed. */
+  acceptFor(aircraft: string): Promise<TakenDecision> {
+    const policy = this.policy === undefined ? {} : { policy: this.policy }
+    return this.service.decide(this.day, { aircraft, ...policy })
+  }
+
   /** Decides differently from the advice, with a reason. */
   async override(to: string, reason: string): Promise<Outcome> {
     const aircraft = this.aircraft

@@ -15,7 +15,7 @@ export class Clock {
   isStill = $state(false)
   /** Whether aircraft wait for decisions, so that a simulated day is silent. */
   isAwaited = $state(false)
-  readonly #pace = new Pace()
+  #pace = new Pace()
   #frame = 0
   #isHeld = false
   #shown_ms = 0
@@ -26,6 +26,15 @@ export class Clock {
     if (this.#shown_ms === 0) this.#show(performance.now())
     this.time = Math.max(this.time, this.#pace.latest ?? 0)
     this.speed = this.#pace.speed
+  }
+
+  /** Goes back to an earlier time of the day, after a mistaken report was taken back. */
+  goBack(time: Seconds): void {
+    this.#pace = new Pace()
+    this.#pace.isAwaited = this.isAwaited
+    this.time = time
+    this.observe(time)
+    this.#show(performance.now())
   }
 
   /** Stops at the end of the day. */

@@ -5,20 +5,20 @@ import type { Service } from '../api/client'
 import { ProblemError, UNAUTHORIZED } from '../api/problem'
 import { follow, type Connection } from '../api/stream'
 import type { AircraftState, DayInfo, DayState, Outlook, TakenEvent } from '../api/types'
-import { alertsOf, type Alert } from '../model/alerts'
+import { alertsOf, listed, type Alert, type ListedAlert } from '../model/alerts'
 import { aircraftAt, endOfMinute, recordAt } from '../model/awaited'
 import { canBeTakenBack, decidedSince } from '../model/decisions'
 import { liveRecord } from '../model/live'
 import { canBeDecidedAgain, isOver } from '../model/over'
 import { WINDOW_MS } from '../model/pace'
 import type { DayRecord, LegRecord, Seconds } from '../model/record'
+import { withoutCorrected } from '../model/corrected'
 import { Reports } from '../model/reports'
 import type { Scenario, ScenarioAircraftType } from '../model/scenario'
 import type { Target } from '../model/target'
 import { timeOf } from '../model/time'
 import { recordOf } from '../model/traces'
 import { Whereabouts } from '../model/whereabouts'
-import { Alerts, type ListedAlert } from './alerts.svelte'
 import { Clock } from './clock.svelte'
 import { OwnDecisions } from './ownDecisions.svelte'
 import { Refresher } from './refresher'
@@ -49,6 +49,8 @@ export class LiveDay {
   state = $state.raw<DayState>()
   outlook = $state.raw<Outlook>()
   events = $state.raw<TakenEvent[]>([])
+  /** The events that were not taken back. */
+  readonly valid: readonly TakenEvent[] = $derived(withoutCorrected(this.events))
   connection = $state<Connection>('connecting')
   /** Seconds since the service last sent anything on the stream. */
   silent_s = $state(0)
@@ -69,7 +71,6 @@ export class LiveDay {
   readonly #service: Service
   readonly #stateRefresher = new Refresher(STATE_PACE, () => this.#readState())
   readonly #outlookRefresher = new Refresher(OUTLOOK_PACE, () => this.#readOutlook())
-  readonly #alertList: Alerts
   #heardAt = performance.now()
   readonly #listening = setInterval(() => this.#listen(), SECOND_MS)
   #stopFollowing: (() => void) | undefined
@@ -82,7 +83,6 @@ export class LiveDay {
   ) {
     this.#service = service
     this.ownDecisions = new OwnDecisions(id)
-    this.#alertList = new Alerts(id)
   }
 
   get scenario(): Scenario | undefined {
@@ -113,17 +113,28 @@ export class LiveDay {
   readonly #alertsNow: readonly Alert[] = $derived.by(() => {
     const { state, record } = this
     if (state === undefined || record === undefined || this.#scenario === undefined) return []
-    return alertsOf({ scenario: this.#scenario, state, record, events: this.events, time: this.#minute })
+    return alertsOf({ scenario: this.#scenario, state, record, events: this.valid, time: this.#minute })
   })
 
   /** The alerts, unacknowledged ones first. */
   readonly alerts: readonly ListedAlert[] = $derived.by(() =>
-    this.#alertList.listed(this.#alertsNow, this.#minute),
+    listed(this.#alertsNow, this.state?.acknowledged ?? []),
   )
 
-  /** Acknowledges alerts, which stay in the list. */
-  acknowledge(keys: readonly string[]): void {
-    this.#alertList.acknowledge(keys)
+  /** Acknowledges alerts for all users; they stay in the list. */
+  async acknowledge(keys: readonly string[]): Promise<void> {
+    await this.#service.report(
+      this.id,
+      keys.map((alert) => ({ type: 'acknowledged', alert })),
+    )
+    await this.readNow()
+  }
+
+  /** Takes an event back: the day is then as if it had not been reported. */
+  async correct(seq: number, reason: string): Promise<void> {
+    const given = reason === '' ? {} : { reason }
+    await this.#service.report(this.id, { type: 'corrected', event: seq, ...given })
+    this.refresh()
   }
 
   /** The reported part of the day, without expected legs, for pictures of one time. */
@@ -146,7 +157,7 @@ export class LiveDay {
   }
 
   /** Aircraft that were decided after the known state. */
-  readonly decidedSince: ReadonlySet<string> = $derived(decidedSince(this.events, this.state?.seq ?? 0))
+  readonly decidedSince: ReadonlySet<string> = $derived(decidedSince(this.valid, this.state?.seq ?? 0))
 
   /** The decisions taken at this console, so that it can mark them and undo them. */
   readonly ownDecisions: OwnDecisions
@@ -214,7 +225,7 @@ export class LiveDay {
     const known = this.state?.aircraft.find((one) => one.id === aircraft)
     // An aircraft that is missing in the state was decided only now.
     const isPossible = known === undefined || known.needs_decision || this.canBeDecidedAgain(known)
-    return isPossible && !this.isOver && canBeTakenBack(this.events, aircraft, seq)
+    return isPossible && !this.isOver && canBeTakenBack(this.valid, aircraft, seq)
   }
 
   /** Undoes the latest decision of an aircraft. */
@@ -266,6 +277,7 @@ export class LiveDay {
     this.events = []
     this.#take(events)
     this.ownDecisions.forgetAfter(events.at(-1)?.seq ?? 0)
+    if (timeOf(state.now) < this.clock.time) this.clock.goBack(timeOf(state.now))
     this.#takeState(state)
     this.#outlookRefresher.request()
     this.#stopClock ??= this.clock.run()
@@ -279,6 +291,11 @@ export class LiveDay {
       headers: () => this.#service.headers(),
       after,
       onEvents: (events) => {
+        // A correction changes what earlier events have led to.
+        if (events.some(({ event }) => event.type === 'corrected')) {
+          this.#readAll().catch((problem: unknown) => this.#fail(problem))
+          return
+        }
         this.#take(events)
         this.refresh()
       },
@@ -324,7 +341,7 @@ export class LiveDay {
   }
 
   #take(events: TakenEvent[]): void {
-    for (const event of events) {
+    for (const event of withoutCorrected(events)) {
       this.#reports?.take(event)
       this.whereabouts.take(event)
     }

@@ -2,6 +2,7 @@
 
 import type { Matter } from '../model/alerts'
 import { clockMinutes } from '../model/time'
+import { sentenceOf } from './problems'
 import { text } from './text'
 
 export function alertText(matter: Matter): string {
@@ -21,6 +22,6 @@ export function alertText(matter: Matter): string {
     case 'low_charge':
       return messages.low_charge(matter.aircraft, matter.to, matter.percent)
     case 'notice':
-      return matter.text
+      return sentenceOf(matter.text)
   }
 }

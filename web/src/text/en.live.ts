@@ -9,7 +9,7 @@ export const alerts = {
   show: 'Show the alerts',
   acknowledge: 'Acknowledge',
   acknowledgeAll: 'Acknowledge all',
-  acknowledged: 'acknowledged',
+  acknowledged: (actor: string) => (actor === '' ? 'acknowledged' : `acknowledged by ${actor}`),
   age: 'Time since it began',
   severities: { critical: 'Critical', warning: 'Warning', notice: 'Notice' },
   counts: {
@@ -28,9 +28,9 @@ export const alerts = {
       `${vertiport} has ${taken} aircraft, standing or on the way, for ${plural(stands, 'stand', 'stands')}`,
     full: (vertiport: string, stands: number) =>
       `${vertiport} is full: ${stands === 1 ? 'its stand' : `each of its ${stands} stands`} is taken or promised`,
-    closed: (what: string, until: string | undefined, underWay: number) =>
+    closed: (what: string, until: string | undefined, underWay: readonly string[]) =>
       `${what} is closed ${until === undefined ? 'until further notice' : `until ${until}`}${
-        underWay === 0 ? '' : `, and ${plural(underWay, 'aircraft is', 'aircraft are')} on the way there`
+        underWay.length === 0 ? '' : `; on the way there: ${underWay.join(', ')}`
       }`,
     out_of_service: (aircraft: string, until: string | undefined) =>
       `${aircraft} is out of service ${until === undefined ? 'until further notice' : `until ${until}`}`,

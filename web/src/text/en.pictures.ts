@@ -22,6 +22,7 @@ export const map = {
   aircraft: (number: number) => plural(number, 'aircraft', 'aircraft'),
   inTheAir: (number: number) => `${number} in the air`,
   overdue: (number: number) => `${number} overdue`,
+  dispatched: 'dispatched, not departed',
   overdueBy: (minutes: number) => `overdue by ${minutes} min`,
   overdueOne: (aircraft: string, minutes: number) => `${aircraft} overdue by ${minutes} min`,
   late: (minutes: number) => `+${minutes} min`,

@@ -43,6 +43,10 @@ export function sentence(event: Event, place?: string): string {
       return texts.cancelled(event.passengers, event.from, event.to, clock(timeOf(event.period)))
     case 'stands':
       return texts.stands(event.vertiport, event.stands)
+    case 'corrected':
+      return texts.corrected(event.event)
+    case 'acknowledged':
+      return texts.acknowledged(event.alert)
     case 'clock':
       return texts.clock
   }
