@@ -1,11 +1,11 @@
 //! The activities of each aircraft on a played day: flights by load, charging, outages, and the
 //! rest of the time on a stand.
 
-use vertifleet_core::{Scenario, Time};
+use vertifleet_core::Scenario;
 use vertifleet_sim::TraceRow;
 
+use crate::activities::{Activity, Span, activities};
 use crate::canvas::{Anchor, Canvas, Lettering, Look, Stroke, shortened};
-use crate::charged::Charged;
 use crate::map::Area;
 use crate::palette::Paint;
 use crate::panel::{Blocks, Clock, key};
@@ -41,31 +41,24 @@ struct Spans {
 }
 
 impl Spans {
-    /// Enters a flight and the time on the ground after it, in a row that begins at `y`.
-    fn add(
-        &mut self,
-        clock: Clock,
-        (y, height): (f64, f64),
-        step: usize,
-        row: &TraceRow,
-        charged: Time,
-    ) {
-        let flight = match step {
-            0 => &mut self.empty,
-            step => &mut self.loaded[step.min(LOADS) - 1],
+    /// Enters an activity in a row that begins at `y`. Only flights take its whole height.
+    fn add(&mut self, clock: Clock, day: &Scenario, (y, height): (f64, f64), span: &Span<'_>) {
+        let (start, end) = (clock.pixel(span.start), clock.pixel(span.end));
+        let on_ground = ((start, y + 0.3 * height), (end - start, 0.4 * height));
+        let (blocks, (place, size)) = match span.activity {
+            Activity::Flight(row) => {
+                let seats = day.aircraft_types[day.aircraft[row.aircraft.at()].kind.at()].seats;
+                let load = usize::from(row.passengers) * LOADS;
+                let blocks = match load.div_ceil(usize::from(seats.max(1))) {
+                    0 => &mut self.empty,
+                    step => &mut self.loaded[step.min(LOADS) - 1],
+                };
+                (blocks, ((start, y), ((end - start).max(0.5), height)))
+            }
+            Activity::Charging => (&mut self.charging, on_ground),
+            Activity::OutOfService => (&mut self.out_of_service, on_ground),
         };
-        let (start, arrival) = (clock.pixel(row.takeoff), clock.pixel(row.arrival));
-        flight.add((start, y), ((arrival - start).max(0.5), height));
-        let (charged, ready) = (clock.pixel(charged), clock.pixel(row.ready));
-        let (y, height) = (y + 0.3 * height, 0.4 * height);
-        if row.takeoff > row.time {
-            let decided = clock.pixel(row.time);
-            self.charging.add((decided, y), (start - decided, height));
-        }
-        self.charging.add((arrival, y), ((charged - arrival).max(0.0), height));
-        if ready > charged {
-            self.out_of_service.add((charged, y), (ready - charged, height));
-        }
+        blocks.add(place, size);
     }
 
     fn draw(&self, canvas: &mut Canvas) {
@@ -84,12 +77,11 @@ pub(crate) fn timeline(canvas: &mut Canvas, clock: Clock, day: &Scenario, rows: 
     let area = clock.area();
     let shown = day.aircraft.len().min(MOST_ROWS);
     let row_height = area.height / shown as f64;
-    let (mut spans, charged) = (Spans::default(), Charged::of(day));
-    for row in rows.iter().filter(|row| row.to != row.from && row.aircraft.at() < shown) {
-        let y = area.top + row_height * row.aircraft.at() as f64 + 1.0;
-        let seats = day.aircraft_types[day.aircraft[row.aircraft.at()].kind.at()].seats;
-        let step = (usize::from(row.passengers) * LOADS).div_ceil(usize::from(seats.max(1)));
-        spans.add(clock, (y, row_height - 2.0), step, row, charged.at(row));
+    let mut spans = Spans::default();
+    let all = activities(day, rows, clock.end());
+    for span in all.iter().filter(|span| span.aircraft.at() < shown) {
+        let y = area.top + row_height * span.aircraft.at() as f64 + 1.0;
+        spans.add(clock, day, (y, row_height - 2.0), span);
     }
     spans.draw(canvas);
     names(canvas, area, day, row_height);

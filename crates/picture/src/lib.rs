@@ -4,13 +4,14 @@
 //! This crate builds on `vertifleet-sim`. [`Moment`] represents where the fleet is at one time of a
 //! trace; [`frame`] paints it as a frame of a video, and [`text`] for a terminal. [`day`] is the
 //! picture of a day, [`network`] that of a network, and [`PlayedPicture`] has those of a day that
-//! was played, most of which [`schedule`] puts on one sheet. The kit writes SVG ([`canvas`],
+//! was played, most of which [`schedule`] puts on one sheet. [`activities`] lists what aircraft do
+//! and when. The kit writes SVG ([`canvas`],
 //! [`axis`], [`palette`]), and [`png`] and [`rgb`] turn SVG into pixels with the embedded font, the
 //! same on every machine.
 
+mod activities;
 pub mod axis;
 pub mod canvas;
-mod charged;
 mod day;
 mod demand;
 mod fleet;
@@ -31,7 +32,7 @@ mod schedule;
 mod stands;
 mod text;
 
-pub use charged::Charged;
+pub use activities::{Activity, Span, activities};
 pub use day::day;
 pub use frame::{FRAME, frame};
 pub use ledger::ledger_lines;

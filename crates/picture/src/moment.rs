@@ -6,13 +6,8 @@ use vertifleet_sim::{Boarded, TraceRow};
 /// Where an aircraft is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Whereabouts {
-    /// It stands at a vertiport, and is ready or not yet charged.
-    Standing {
-        /// The vertiport.
-        at: VertiportIx,
-        /// Whether it still charges.
-        charging: bool,
-    },
+    /// It stands at this vertiport.
+    Standing(VertiportIx),
     /// It is in the air.
     Flying {
         /// Where it comes from.
@@ -58,7 +53,7 @@ impl Moment {
             aircraft: day
                 .aircraft
                 .iter()
-                .map(|aircraft| Whereabouts::Standing { at: aircraft.at, charging: false })
+                .map(|aircraft| Whereabouts::Standing(aircraft.at))
                 .collect(),
             standing: vec![0; vertiports],
             coming: vec![0; vertiports],
@@ -75,7 +70,7 @@ impl Moment {
         }
         for place in &moment.aircraft {
             match *place {
-                Whereabouts::Standing { at, .. } => moment.standing[at.at()] += 1,
+                Whereabouts::Standing(at) => moment.standing[at.at()] += 1,
                 Whereabouts::Flying { to, .. } => moment.coming[to.at()] += 1,
             }
         }
@@ -85,14 +80,11 @@ impl Moment {
 
 /// Where the aircraft of a row is, if it was its last decision.
 fn whereabouts(day: &Scenario, row: &TraceRow, time: Time) -> Whereabouts {
-    if row.to == row.from {
-        return Whereabouts::Standing { at: row.from, charging: false };
-    }
-    if time < row.takeoff {
-        return Whereabouts::Standing { at: row.from, charging: true };
+    if row.to == row.from || time < row.takeoff {
+        return Whereabouts::Standing(row.from);
     }
     if time >= row.arrival {
-        return Whereabouts::Standing { at: row.to, charging: time < row.ready };
+        return Whereabouts::Standing(row.to);
     }
     let seats = day.aircraft_types[day.aircraft[row.aircraft.at()].kind.at()].seats;
     Whereabouts::Flying {

@@ -39,6 +39,10 @@ impl Clock {
         self.area
     }
 
+    pub(crate) fn end(&self) -> Time {
+        Time::from_seconds(self.end_s)
+    }
+
     pub(crate) fn pixel(&self, time: Time) -> f64 {
         let passed = f64::from(time.seconds().saturating_sub(self.start_s));
         let share = passed / f64::from(self.end_s - self.start_s);

@@ -55,7 +55,7 @@ impl Leg {
 }
 
 /// Seconds to charge the last `energy_kwh` of a full battery at a vertiport (Eq. 14).
-pub(crate) fn refill_s(energy_kwh: f64, kind: &AircraftType, at: &Vertiport) -> u32 {
+pub fn refill_s(energy_kwh: f64, kind: &AircraftType, at: &Vertiport) -> u32 {
     if kind.charge_curve.is_some() {
         let left_kwh = kind.battery_kwh - energy_kwh;
         return nearest_second(

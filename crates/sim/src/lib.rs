@@ -57,7 +57,7 @@ pub use error::{Refusal, Shortfall};
 pub use imagined::Imagined;
 pub use landed::Landed;
 pub use ledger::Ledger;
-pub use legs::{Leg, Legs};
+pub use legs::{Leg, Legs, refill_s};
 pub use outcome::Outcome;
 pub use simulation::{Decision, Simulation, first_decision};
 pub use snapshot::Snapshot;

@@ -1,9 +1,9 @@
 //! What aircraft and stands were used for.
 
 use serde::Serialize;
-use vertifleet_core::{AircraftIx, Scenario, Time, VertiportIx};
+use vertifleet_core::{Aircraft, Scenario, VertiportIx};
 use vertifleet_optimize::Bound;
-use vertifleet_picture::{Charged, Occupancy};
+use vertifleet_picture::{Activity, Occupancy, activities};
 use vertifleet_sim::TraceRow;
 
 const HOUR_S: f64 = 3_600.0;
@@ -59,13 +59,13 @@ pub struct AircraftUse {
     pub flights: u32,
     /// Flights without passengers.
     pub repositioning_flights: u32,
-    /// Hours from decisions to fly until arrivals.
+    /// Hours from leaving a stand until arrival.
     pub flying_h: f64,
-    /// Hours of charging.
+    /// Hours in which its battery charged, also while it held or waited for its take-off.
     pub charging_h: f64,
-    /// Hours for which an outage kept it on the ground after it was charged.
+    /// Hours for which an outage kept it on the ground with a full battery.
     pub out_of_service_h: f64,
-    /// All other hours of operations: on a stand, charged and ready.
+    /// All other hours of operations: on the ground with a full battery.
     pub waiting_h: f64,
     /// Profit of its flights, before what the aircraft costs, dollars.
     pub profit_usd: f64,
@@ -96,37 +96,43 @@ fn number<'a>(rows: impl Iterator<Item = &'a TraceRow>) -> u32 {
 
 /// The use of every aircraft.
 pub(super) fn of_aircraft(day: &Scenario, rows: &[TraceRow]) -> Vec<AircraftUse> {
-    let all_h = f64::from(day.operations.end.since(day.operations.start)) / HOUR_S;
-    let mut uses: Vec<AircraftUse> = day
-        .aircraft
-        .iter()
-        .map(|aircraft| AircraftUse {
-            id: aircraft.id.clone(),
-            kind: day.aircraft_types[aircraft.kind.at()].id.clone(),
-            flights: 0,
-            repositioning_flights: 0,
-            flying_h: 0.0,
-            charging_h: 0.0,
-            out_of_service_h: 0.0,
-            waiting_h: all_h,
-            profit_usd: 0.0,
-        })
-        .collect();
-    let end = day.operations.end;
-    let within_h = |from: Time, to: Time| {
-        f64::from(to.min(end).seconds().saturating_sub(from.min(end).seconds())) / HOUR_S
+    let all_s = day.operations.end.since(day.operations.start);
+    let mut seconds = vec![Seconds::default(); day.aircraft.len()];
+    for span in activities(day, rows, day.operations.end) {
+        let of_aircraft = &mut seconds[span.aircraft.at()];
+        let of_activity = match span.activity {
+            Activity::Flight(_) => &mut of_aircraft.flying,
+            Activity::Charging => &mut of_aircraft.charging,
+            Activity::OutOfService => &mut of_aircraft.out_of_service,
+        };
+        *of_activity += span.end.since(span.start);
+    }
+    let in_hours = |seconds: u32| f64::from(seconds) / HOUR_S;
+    let of_one = |(aircraft, spent): (&Aircraft, &Seconds)| AircraftUse {
+        id: aircraft.id.clone(),
+        kind: day.aircraft_types[aircraft.kind.at()].id.clone(),
+        flights: 0,
+        repositioning_flights: 0,
+        flying_h: in_hours(spent.flying),
+        charging_h: in_hours(spent.charging),
+        out_of_service_h: in_hours(spent.out_of_service),
+        waiting_h: in_hours(all_s - spent.flying - spent.charging - spent.out_of_service),
+        profit_usd: 0.0,
     };
-    let charged = Charged::of(day);
+    let mut uses: Vec<AircraftUse> = day.aircraft.iter().zip(&seconds).map(of_one).collect();
     for row in rows.iter().filter(|row| row.from != row.to) {
-        let AircraftIx(at) = row.aircraft;
-        let one = &mut uses[at as usize];
+        let one = &mut uses[row.aircraft.at()];
         one.flights += 1;
         one.repositioning_flights += u32::from(row.passengers == 0);
-        one.flying_h += within_h(row.takeoff, row.arrival);
-        one.charging_h += within_h(row.time, row.takeoff) + within_h(row.arrival, charged.at(row));
-        one.out_of_service_h += within_h(charged.at(row), row.ready);
-        one.waiting_h -= within_h(row.time, row.ready);
         one.profit_usd += row.profit_usd();
     }
     uses
+}
+
+/// The seconds that an aircraft spends on each activity within the hours of operations.
+#[derive(Clone, Default)]
+struct Seconds {
+    flying: u32,
+    charging: u32,
+    out_of_service: u32,
 }

@@ -1,3 +1,4 @@
-//! What evaluations promise.
+//! What evaluations and the accounts of days promise.
 
 mod evaluations;
+mod hours;
