@@ -13,7 +13,15 @@ pub enum Charging {
 impl Charging {
     /// Both, with the name that files give them.
     pub(crate) const NAMES: [(&str, Self); 2] =
-        [("to_full", Self::ToFull), ("as_needed", Self::AsNeeded)];
+        [(Self::ToFull.name(), Self::ToFull), (Self::AsNeeded.name(), Self::AsNeeded)];
+
+    /// Its name in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::ToFull => "to_full",
+            Self::AsNeeded => "as_needed",
+        }
+    }
 }
 
 /// The power at which a battery charges, by its state of charge, linear between points.

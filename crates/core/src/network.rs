@@ -155,6 +155,12 @@ impl Network {
         &self.name
     }
 
+    /// The lowest and the highest share of its battery that an aircraft starts the day with; `None`
+    /// if batteries are full then.
+    pub fn start_charge(&self) -> Option<(f64, f64)> {
+        self.start_charge
+    }
+
     /// The time zone of the clocks of its vertiports by its name in the IANA database, for example
     /// `America/New_York`, if the file names one.
     pub fn time_zone(&self) -> Option<&str> {
