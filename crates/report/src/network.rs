@@ -213,8 +213,8 @@ mod tests {
             ("vertiports.*.chargers", json!(2)),
         ];
         let changes = changes.map(|(path, value)| (path.to_owned(), value));
-        let changed = paper.changed(changes.iter().map(|(path, value)| (path, value)));
-        let text = network(&NetworkOverview::of(&changed.expect("a network"))).text();
+        let quick = paper.changed(changes.iter().map(|(path, value)| (path, value)));
+        let text = network(&NetworkOverview::of(&quick.expect("a network"))).text();
         let (before, _) = text.split_once("Demand").expect("a section on demand");
         insta::assert_snapshot!(before);
     }

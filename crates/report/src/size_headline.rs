@@ -8,7 +8,14 @@ use vertifleet_study::statistics::Estimate;
 /// States the design that was found, its profit on days that were not part of the search, and its
 /// largest distance from the optimum.
 pub(crate) fn headline(report: &SizeReport) -> String {
-    let parts = [better(report), found(report), again(report), certificate(report), doubts(report)];
+    let parts = [
+        better(report),
+        found(report),
+        neighbours(report),
+        again(report),
+        certificate(report),
+        doubts(report),
+    ];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
@@ -44,6 +51,18 @@ fn found(report: &SizeReport) -> String {
         format!(
             "No design that was played carries enough. With the one that carries most, {has}, {does}."
         )
+    }
+}
+
+/// The designs next to the one that was found.
+fn neighbours(report: &SizeReport) -> String {
+    match report.neighbours {
+        0 => String::new(),
+        1 => "The design that differs by a step in one number is not better on these days."
+            .to_owned(),
+        many => format!(
+            "None of the {many} designs that differ by a step in one number is better on these days."
+        ),
     }
 }
 
@@ -151,8 +170,8 @@ fn doubts(report: &SizeReport) -> String {
             counted(at_limit, "member is", "members are")
         ));
     }
-    if report.designs.len() >= report.most_designs {
-        doubts.push("The search ended because it had played as many designs as it may; more may find a better one.".to_owned());
+    if report.ended_early {
+        doubts.push("The search ended because its days were used up; with more --designs it may find a better one.".to_owned());
     }
     doubts.join(" ")
 }

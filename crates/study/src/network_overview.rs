@@ -247,8 +247,8 @@ mod tests {
             ("vertiports.V2.charger_kw", json!(75)),
         ];
         let changes = changes.map(|(path, value)| (path.to_owned(), value));
-        let changed = paper.changed(changes.iter().map(|(path, value)| (path, value)));
-        let overview = NetworkOverview::of(&changed.expect("a network"));
+        let network = paper.changed(changes.iter().map(|(path, value)| (path, value)));
+        let overview = NetworkOverview::of(&network.expect("a network"));
         let found = serde_json::to_value(&overview).expect("plain data");
         let kind = &found["aircraft_types"][0];
         assert_eq!(kind["range_mi"], 25.0, "half of the 50 miles of `paper`");

@@ -4,7 +4,8 @@
 //! aircraft, stands and chargers. All designs meet the same days with common random numbers, as the
 //! cells of a [sweep](crate::sweep) do. Bounds of a few designs bound all of them
 //! ([`vertifleet_optimize::DesignBound`]), which shows where good designs are and proves how far
-//! the best that was found can be from the best there is. The best is played again on days that the
+//! the best that was found can be from the best there is. No design one step from the best in one
+//! number is better on the same days. The best is played again on days that the
 //! search has not seen, because the best of many looks better than it is.
 
 mod ceiling;
@@ -20,16 +21,19 @@ use std::path::Path;
 use serde_json::{Value, json};
 use vertifleet_core::{Matrix, Network, Scenario, Stop};
 use vertifleet_optimize::Step;
+use vertifleet_sim::DayTotals;
 
 use crate::comparison::DrawnDays;
 use crate::competitor::{Competitor, Selection};
 use crate::error::Error;
 use crate::journal::{Head, Journal, fingerprint, make_folder};
+use crate::run::Kept;
+use crate::study::{Study, Unwatched};
 use crate::sweep::Factor;
 
 use search::{Aim, search};
 use solver::KnownDesigns;
-use space::Space;
+use space::{Design, Space};
 
 pub use goal::Goal;
 pub use journal::{JOURNAL, JOURNAL_KIND};
@@ -52,7 +56,8 @@ pub struct SizeRequest<'a> {
     pub drawn: DrawnDays,
     /// The step of the bounds.
     pub bound_step: Step,
-    /// The most designs to play.
+    /// The work of the search in designs that are played on all days. The neighbours of its answer
+    /// are compared besides.
     pub designs: usize,
 }
 
@@ -112,9 +117,15 @@ impl Sizing {
         Ok(self.space.network.draw(self.drawn.seed(0)?))
     }
 
-    /// The most designs that are played.
+    /// About how many designs are played on all days: those of the search at most, and the
+    /// neighbours of its answer.
     pub fn designs(&self) -> usize {
-        self.designs
+        self.designs + 2 * self.space.dimensions.len()
+    }
+
+    /// The days that the designs of the search have.
+    fn days_of_designs(&self) -> usize {
+        self.designs * self.drawn.days as usize
     }
 
     /// A number that changes when anything changes that the results depend on.
@@ -166,6 +177,19 @@ impl Sizing {
             self.space.network(&found.best)?.toml()
         );
         Ok(SizeRecords { report, best })
+    }
+
+    /// Plays days of a design.
+    fn play_days(
+        &self,
+        design: &Design,
+        drawn: DrawnDays,
+        stop: &Stop,
+    ) -> Result<Vec<DayTotals>, Error> {
+        let network = self.space.network(design)?;
+        let study = Study::new(vec![self.competitor.clone()], drawn.draw(&network, stop)?, None)?;
+        let policies = study.play(Kept::Totals, stop, &Unwatched)?;
+        Ok(policies[0].days.iter().map(|day| day.totals).collect())
     }
 
     /// The mean number of passengers a day who want to fly.

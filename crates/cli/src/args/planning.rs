@@ -103,7 +103,8 @@ pub(crate) struct SizeArguments {
     pub(crate) model: Option<PolicySource>,
     #[arg(long, help = STEP, value_name = "MIN", default_value_t = 60, allow_hyphen_values = true, value_parser = parse_minutes)]
     pub(crate) step: u32,
-    /// Largest number of designs to play, 2 to 1000
+    /// Work of the search: as many simulated days as this number of designs has, 2 to 1000. The
+    /// designs one step from the answer are compared besides
     #[arg(long, value_name = "NUMBER", default_value_t = 40)]
     pub(crate) designs: usize,
     /// Folder of the search: designs, a report page and the network file of the best one

@@ -172,6 +172,40 @@ fn an_interrupted_search_ends_with_the_same_bytes_and_another_is_refused() {
 }
 
 #[test]
+fn no_design_a_step_away_is_better_and_threads_change_nothing() {
+    let factors =
+        ["fleet.0.count=20..44/8", "vertiports.V1.stands=5..7", "vertiports.V2.stands=5..7"];
+    let in_threads = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        let folder = tempfile::tempdir().expect("a folder");
+        let search = sizing(Goal::MostProfit, &factors).expect("a search");
+        pool.install(|| run(&search, folder.path()))
+    };
+    let ((records, files), (_, again)) = (in_threads(1), in_threads(3));
+    assert!(files == again, "on one thread and on three");
+    let report = &records.report;
+    let found = report.found();
+    let mut compared = 0;
+    for (at, dimension) in report.dimensions.iter().enumerate() {
+        for by in [-1, 1] {
+            let number = i64::from(found.numbers[at]) + by * i64::from(dimension.step);
+            if !(dimension.lowest.into()..=dimension.highest.into()).contains(&number) {
+                continue;
+            }
+            let numbers = report.dimensions.iter().zip(&found.numbers);
+            let mut changes: serde_json::Map<String, serde_json::Value> =
+                numbers.map(|(one, &number)| (one.member.clone(), number.into())).collect();
+            changes.insert(dimension.member.clone(), number.into());
+            let network = paper().changed(&changes).expect("a design");
+            let (profit_usd, _) = played(&network, &["prices"])[0];
+            assert!(profit_usd <= found.profit_usd.mean, "{changes:?} earns {profit_usd}");
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, report.neighbours);
+}
+
+#[test]
 fn the_fleet_that_carries_a_share_is_no_smaller_than_the_proven_minimum() {
     let folder = tempfile::tempdir().expect("a folder");
     let factors = ["fleet.0.count=10..40/2", "tariffs.aircraft_cost_usd_per_day=0"];

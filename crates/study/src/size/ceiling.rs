@@ -79,6 +79,18 @@ impl Ceiling {
         corrected
     }
 
+    /// The ceiling if a policy earns a share of what each thing brings, before its cost, and if
+    /// aircraft have less room. It proves nothing.
+    pub(super) fn discounted(&self, share: f64, costs: &[f64], room: Headroom) -> Self {
+        let mut discounted = Self { room, cuts: Vec::new(), ..self.clone() };
+        for cut in &self.cuts {
+            let slopes = cut.slopes.iter().zip(costs);
+            let slopes = slopes.map(|(slope, cost)| share * (slope + cost) - cost).collect();
+            discounted.add(Cut { constant: share * cut.constant, slopes });
+        }
+        discounted
+    }
+
     /// A design of the highest value near `center`, not in whole numbers.
     pub(super) fn highest(&self, center: &[u32]) -> Option<Vec<f64>> {
         self.toward(center, self.most() - 1e-6 * self.scale)

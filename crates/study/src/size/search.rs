@@ -5,16 +5,19 @@
 //! *New variants of bundle methods*, Mathematical Programming 69, 1995), and says where good
 //! designs are.
 //!
-//! *Then days.* A policy plays the days of single designs: first of the best by the ceiling, then
-//! of designs around the best so far, from large steps to small ones (a pattern search: R. Hooke,
-//! T. Jeeves, Journal of the ACM 8, 1961). What a design will be found to earn is predicted from
-//! the slopes of the ceiling. A policy does not make of a further stand what the best schedule
-//! makes of it, so every design that is played corrects the slopes of what it changed (S. Kaczmarz,
-//! 1937). What is played next depends on the goal: `most.rs` looks for the highest value,
-//! `enough.rs` for the least cost of enough.
+//! *Then days.* A policy plays the days of single designs. All designs meet the same days, so that
+//! few days tell good designs from poor ones: designs *race* in rounds, and the better half of each
+//! round goes on to twice as many days (successive halving: Z. Karnin, T. Koren, O. Somekh, *Almost
+//! optimal exploration in multi-armed bandits*, ICML 2013). What races depends on the goal:
+//! `most.rs` looks for the highest value, `enough.rs` for the least cost of enough.
+//!
+//! *Then the neighbours.* At last every design one step away from the best in one dimension is
+//! played on all days, unless a bound proves that it is not better. If one is better, the search
+//! goes on there. So the answer is never below a neighbour on the days of the search.
 
 mod enough;
 mod most;
+mod race;
 
 use std::collections::BTreeMap;
 
@@ -22,6 +25,7 @@ use super::ceiling::{Ceiling, Cut};
 use super::goal::Goal;
 use super::space::{Design, DimensionKind, Space};
 use crate::error::Error;
+use crate::statistics::mean;
 
 /// The most bounds that the ceiling is made of before days are played.
 const MOST_BOUNDS: usize = 14;
@@ -29,8 +33,8 @@ const MOST_BOUNDS: usize = 14;
 /// than this share, because what is predicted of a policy may be wrong by as much. Steps in two
 /// dimensions have to be predicted to be better.
 const WORTH_PLAYING: f64 = 0.05;
-/// As many designs in a row may be played in vain before the steps become smaller. With single
-/// steps, each dimension may be tried both ways.
+/// Number of designs in a row that may be played in vain before the steps become smaller. With
+/// single steps, each dimension may be tried both ways.
 const IN_VAIN: usize = 6;
 /// How much of what it was wrong by a design that was played corrects.
 const CORRECTED: f64 = 0.7;
@@ -40,13 +44,16 @@ pub(super) trait Solver {
     /// Bounds what is wanted of all designs, near the truth with this many things above the lowest
     /// numbers.
     fn bound(&mut self, above: &Design) -> Result<Cut, Error>;
-    /// Plays the days of a design.
-    fn play(&mut self, design: &Design) -> Result<DesignMeans, Error>;
+    /// The number of days that all designs meet.
+    fn days(&self) -> usize;
+    /// Plays this many of the first days of some designs. Returns the numbers of each day, design
+    /// by design.
+    fn play(&mut self, designs: &[Design], days: usize) -> Result<Vec<Vec<DayNumbers>>, Error>;
 }
 
-/// Means a day of a design that was played.
+/// The numbers of a day of a design.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct DesignMeans {
+pub(super) struct DayNumbers {
     pub(super) profit_usd: f64,
     /// Passengers carried.
     pub(super) carried: f64,
@@ -64,7 +71,7 @@ pub(super) struct Aim {
 
 impl Aim {
     /// What is bounded and wanted high: profit, or the number of passengers carried.
-    fn value(&self, played: DesignMeans) -> f64 {
+    fn value(&self, played: DayNumbers) -> f64 {
         if self.goal == Goal::MostProfit { played.profit_usd } else { played.carried }
     }
 
@@ -85,11 +92,18 @@ pub(super) struct Found {
     /// most.
     pub(super) reaches: bool,
     pub(super) ceiling: Ceiling,
-    /// The designs that were played, in this order.
+    /// The designs that were played on all days, in this order.
     pub(super) order: Vec<Design>,
+    /// Number of designs one step from the best in one dimension; none of them is better.
+    pub(super) neighbours: usize,
+    /// Number of days that were simulated before the neighbours of the best were compared.
+    pub(super) searched_days: usize,
+    /// Number of all days that were simulated.
+    pub(super) simulated_days: usize,
 }
 
-/// Searches for the best design, and plays at most `budget` of them.
+/// Searches for the best design. Before it compares the neighbours of its answer, it simulates at
+/// most as many days as `budget` designs have.
 ///
 /// # Errors
 /// Returns the errors of the solver.
@@ -106,18 +120,22 @@ pub(super) fn search(
     };
     search.play(&search.possible(space, space.start()))?;
     match aim.goal {
-        Goal::Served(_) => search.play_until_enough(first)?,
+        Goal::Served(_) => search.play_until_enough(first.clone())?,
         Goal::MostProfit | Goal::LeastSpill => search.play(&first)?,
     }
     if search.is_enough(search.best()) {
         search.play_along_the_edge()?;
     } else {
-        search.play_around()?;
+        search.race_to_the_best(&first)?;
     }
+    let searched_days = search.simulated_days;
+    search.compare_neighbours()?;
     let best = search.best().clone();
     search.bound(&space.above(&best))?;
     let reaches = aim.reaches(search.played[&best]);
-    Ok(Found { best, reaches, ceiling: search.ceiling, order: search.order })
+    let neighbours = steps_from(space, &best, 1).len();
+    let Search { ceiling, order, simulated_days, .. } = search;
+    Ok(Found { best, reaches, ceiling, order, neighbours, searched_days, simulated_days })
 }
 
 struct Search<'a, S> {
@@ -128,7 +146,10 @@ struct Search<'a, S> {
     budget: usize,
     solver: &'a mut S,
     ceiling: Ceiling,
-    /// The values of the designs that were played.
+    /// The values of designs on the first days.
+    values: BTreeMap<Design, Vec<f64>>,
+    simulated_days: usize,
+    /// The mean values of the designs that were played on all days.
     played: BTreeMap<Design, f64>,
     order: Vec<Design>,
     /// By how much more a step raises what is played than the ceiling, by dimension.
@@ -138,10 +159,21 @@ struct Search<'a, S> {
 impl<'a, S: Solver> Search<'a, S> {
     fn new(space: &'a Space, aim: &'a Aim, budget: usize, solver: &'a mut S) -> Self {
         let all_numbers = space.with_all_numbers();
-        let ceiling = Ceiling::new(all_numbers.largest(), space.room());
+        let ceiling = Ceiling::new(all_numbers.largest(), space.room(1.0));
         let corrections = vec![0.0; space.dimensions.len()];
-        let (played, order) = (BTreeMap::new(), Vec::new());
-        Self { space, all_numbers, aim, budget, solver, ceiling, played, order, corrections }
+        Self {
+            space,
+            all_numbers,
+            aim,
+            budget,
+            solver,
+            ceiling,
+            values: BTreeMap::new(),
+            simulated_days: 0,
+            played: BTreeMap::new(),
+            order: Vec::new(),
+            corrections,
+        }
     }
 
     /// Adds the bound of a design to the ceiling, and returns its value.
@@ -197,12 +229,64 @@ impl<'a, S: Solver> Search<'a, S> {
     }
 
     fn play(&mut self, design: &Design) -> Result<(), Error> {
-        if !self.played.contains_key(design) {
-            let played = self.solver.play(design)?;
-            self.played.insert(design.clone(), self.aim.value(played));
-            self.order.push(design.clone());
+        self.play_first_days(std::slice::from_ref(design), self.solver.days())
+    }
+
+    /// Plays this many of the first days of some designs.
+    fn play_first_days(&mut self, designs: &[Design], days: usize) -> Result<(), Error> {
+        let is_new = |one: &&Design| self.known_days(one) < days;
+        let mut new: Vec<Design> = Vec::new();
+        for one in designs.iter().filter(is_new) {
+            if !new.contains(one) {
+                new.push(one.clone());
+            }
+        }
+        let played = self.solver.play(&new, days)?;
+        for (design, played) in new.into_iter().zip(played) {
+            self.simulated_days += days - self.known_days(&design);
+            let values: Vec<f64> = played.into_iter().map(|day| self.aim.value(day)).collect();
+            if days == self.solver.days() {
+                self.played.insert(design.clone(), mean(&values));
+                self.order.push(design.clone());
+            }
+            self.values.insert(design, values);
         }
         Ok(())
+    }
+
+    fn known_days(&self, design: &Design) -> usize {
+        self.values.get(design).map_or(0, Vec::len)
+    }
+
+    /// Days that may still be simulated before the neighbours of the best are compared.
+    fn days_left(&self) -> usize {
+        (self.budget * self.solver.days()).saturating_sub(self.simulated_days)
+    }
+
+    /// Plays every neighbour of the best that may be better, and goes on to the best of them, until
+    /// none is.
+    fn compare_neighbours(&mut self) -> Result<(), Error> {
+        loop {
+            let best = self.best().clone();
+            let all = steps_from(self.space, &best, 1).into_iter();
+            let may_be_better: Vec<Design> =
+                all.filter(|one| self.may_be_better(one, &best)).collect();
+            self.play_first_days(&may_be_better, self.solver.days())?;
+            if *self.best() == best {
+                return Ok(());
+            }
+            if !self.is_enough(self.best()) {
+                self.race_around(1, usize::MAX)?;
+            }
+        }
+    }
+
+    /// Whether no bound proves that a design is not better than another that was played.
+    fn may_be_better(&self, one: &Design, than: &Design) -> bool {
+        if self.is_enough(than) {
+            return self.cost(one) < self.cost(than) && self.ceiling_at(one) >= self.aim.need;
+        }
+        self.ceiling_at(one) >= self.played[than] - 1e-9 * self.played[than].abs()
     }
 
     /// The best design that was played; among equals the cheapest.
@@ -271,6 +355,12 @@ fn prediction_margin(from: &Design, to: &Design) -> f64 {
 /// By how many steps two designs differ, by dimension.
 fn changes(from: &Design, to: &Design) -> Vec<f64> {
     from.iter().zip(to).map(|(&from, &to)| f64::from(to) - f64::from(from)).collect()
+}
+
+/// The possible designs that differ by `reach` steps in one dimension, or by fewer at its ends.
+fn steps_from(space: &Space, design: &Design, reach: u32) -> Vec<Design> {
+    let steps = around(space, design, reach, |_, _| false).into_iter();
+    steps.filter(|one| space.is_possible(one)).collect()
 }
 
 /// Designs that differ by `reach` steps in one dimension, or in two for which `is_pair` says so,

@@ -12,14 +12,11 @@ use super::Sizing;
 use super::ceiling::Cut;
 use super::goal::Goal;
 use super::journal::{Finding, Part};
-use super::search::{DesignMeans, Solver};
+use super::search::{DayNumbers, Solver};
 use super::space::{Design, Dimension, DimensionKind, Space};
 use crate::comparison::DrawnDays;
 use crate::error::Error;
 use crate::journal::Journal;
-use crate::run::Kept;
-use crate::statistics::mean;
-use crate::study::{Study, Unwatched};
 
 /// The solver of a search, with everything that was found out.
 pub(super) struct KnownDesigns<'a> {
@@ -76,7 +73,7 @@ impl<'a> KnownDesigns<'a> {
         // A design of no numbers changes nothing in the file.
         let as_it_is = Design::new();
         if !self.days.contains_key(&as_it_is) {
-            let days = self.play_days(&as_it_is, self.sizing.drawn)?;
+            let days = self.sizing.play_days(&as_it_is, self.sizing.drawn, self.stop)?;
             self.keep(&as_it_is, Finding::Days(days))?;
         }
         Ok(&self.days[&as_it_is])
@@ -85,18 +82,10 @@ impl<'a> KnownDesigns<'a> {
     /// The numbers of the days that follow.
     pub(super) fn again(&mut self, design: &Design) -> Result<&[DayTotals], Error> {
         if !self.again.contains_key(design) {
-            let days = self.play_days(design, self.sizing.again)?;
+            let days = self.sizing.play_days(design, self.sizing.again, self.stop)?;
             self.keep(design, Finding::Again(days))?;
         }
         Ok(&self.again[design])
-    }
-
-    fn play_days(&self, design: &Design, drawn: DrawnDays) -> Result<Vec<DayTotals>, Error> {
-        let network = self.sizing.space.network(design)?;
-        let competitors = vec![self.sizing.competitor.clone()];
-        let study = Study::new(competitors, drawn.draw(&network, self.stop)?, None)?;
-        let policies = study.play(Kept::Totals, self.stop, &Unwatched)?;
-        Ok(policies[0].days.iter().map(|day| day.totals).collect())
     }
 
     /// The sum of the bounds of all days.
@@ -129,20 +118,52 @@ impl Solver for KnownDesigns<'_> {
         Ok(self.bounds[above].clone())
     }
 
-    fn play(&mut self, design: &Design) -> Result<DesignMeans, Error> {
-        if !self.days.contains_key(design) {
-            let days = self.play_days(design, self.sizing.drawn)?;
-            self.keep(design, Finding::Days(days))?;
-        }
-        (self.when_played)();
-        let days = &self.days[design];
-        let average =
-            |number: fn(&DayTotals) -> f64| mean(&days.iter().map(number).collect::<Vec<f64>>());
-        Ok(DesignMeans {
-            profit_usd: average(|day| day.profit_usd),
-            carried: average(|day| day.passengers as f64),
-        })
+    fn days(&self) -> usize {
+        self.sizing.drawn.days as usize
     }
+
+    fn play(&mut self, designs: &[Design], days: usize) -> Result<Vec<Vec<DayNumbers>>, Error> {
+        let (sizing, stop) = (self.sizing, self.stop);
+        for some in designs.chunks(AT_ONCE) {
+            let known = |design: &Design| self.days.get(design).map_or(0, Vec::len);
+            let new: Vec<(&Design, usize)> = some.iter().map(|one| (one, known(one))).collect();
+            let new = new.into_iter().filter(|&(_, known)| known < days);
+            let new: Vec<(&Design, usize)> = new.collect();
+            let played = new.par_iter().map(|&(design, known)| {
+                sizing.play_days(design, days_between(sizing.drawn, known, days), stop)
+            });
+            let played = played.collect::<Result<Vec<Vec<DayTotals>>, Error>>()?;
+            for ((design, _), more) in new.into_iter().zip(played) {
+                let mut all = self.days.get(design).cloned().unwrap_or_default();
+                all.extend(more);
+                self.keep(design, Finding::Days(all))?;
+            }
+        }
+        let numbers = |day: &DayTotals| DayNumbers {
+            profit_usd: day.profit_usd,
+            carried: day.passengers as f64,
+        };
+        Ok(designs
+            .iter()
+            .map(|design| {
+                let played = &self.days[design][..days];
+                if days == sizing.drawn.days as usize {
+                    (self.when_played)();
+                }
+                played.iter().map(numbers).collect()
+            })
+            .collect())
+    }
+}
+
+/// Designs that are played at once. What they are found to earn is in the journal before the next
+/// ones.
+const AT_ONCE: usize = 16;
+
+/// Some of the days that are drawn.
+fn days_between(drawn: DrawnDays, from: usize, to: usize) -> DrawnDays {
+    let number = |day: usize| u32::try_from(day).expect("a search has fewer days");
+    DrawnDays { first: drawn.first.saturating_add(from as u64), days: number(to - from), ..drawn }
 }
 
 /// The bound of the mean day as a function of how many there are of each thing above its lowest

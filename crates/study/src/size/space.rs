@@ -188,18 +188,18 @@ impl Space {
         Self { dimensions: self.dimensions.iter().map(all).collect(), ..self.clone() }
     }
 
-    /// The stands that designs have for aircraft, and must have.
-    pub(super) fn room(&self) -> Headroom {
+    /// The rule that aircraft fill at most a share of the stands.
+    pub(super) fn room(&self, filled: f64) -> Headroom {
         let lowest = self.counts(&vec![0; self.dimensions.len()]);
         let takes = |one: &Dimension| match one.what {
             DimensionKind::Aircraft(_) => 1.0,
-            DimensionKind::Stands(_) => -1.0,
+            DimensionKind::Stands(_) => -filled,
             DimensionKind::Chargers(_) => 0.0,
         };
         let sum = |numbers: &[u32]| f64::from(numbers.iter().sum::<u32>());
         Headroom {
             takes: self.dimensions.iter().map(takes).collect(),
-            there_is: sum(&lowest.stands) - sum(&lowest.aircraft),
+            there_is: filled * sum(&lowest.stands) - sum(&lowest.aircraft),
         }
     }
 

@@ -37,8 +37,16 @@ pub struct SizeReport {
     pub split: &'static str,
     /// Days of each design.
     pub days: u32,
-    /// The most designs that the search may play.
+    /// The work of the search in designs that are played on all days, before it compares the
+    /// neighbours of its answer.
     pub most_designs: usize,
+    /// Whether the search ended because it had no days left.
+    pub ended_early: bool,
+    /// Number of days that were simulated, further days not counted.
+    pub simulated_days: usize,
+    /// Number of designs that differ from the one that was found by a step in one number; none of
+    /// them is better on the days of the search.
+    pub neighbours: usize,
     /// The length of the slices of the bounds in seconds.
     pub bound_step_s: u32,
     /// Passengers a day who want to fly.
@@ -55,7 +63,7 @@ pub struct SizeReport {
     pub now: usize,
     /// The network file as it is, where no design is the same.
     pub left_out: Option<LeftOut>,
-    /// The designs that were played, in this order.
+    /// The designs that were played on all days, in this order.
     pub designs: Vec<DesignSummary>,
     /// The design that was found, on days that the search has not seen.
     pub best_on_holdout: DesignSummary,
@@ -203,6 +211,10 @@ impl SizeReport {
             split: sizing.drawn.purpose.name(),
             days: sizing.drawn.days,
             most_designs: sizing.designs,
+            ended_early: sizing.days_of_designs()
+                < found.searched_days + sizing.drawn.days as usize,
+            simulated_days: found.simulated_days,
+            neighbours: found.neighbours,
             bound_step_s: sizing.bound_step.seconds(),
             wanted_passengers: designs[0].passengers + designs[0].spilled_passengers,
             needed_passengers: matches!(sizing.goal, Goal::Served(_)).then_some(aim.need),

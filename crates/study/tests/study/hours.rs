@@ -45,7 +45,7 @@ fn played(day: &Arc<Scenario>) -> (Trace, DayTotals) {
     while let Some(decision) = simulation.next_decision() {
         let feasible = simulation.view().feasible(&decision);
         let size = day.vertiports.len();
-        let first = if decision.index.is_multiple_of(3) { 0 } else { 1 };
+        let first = usize::from(!decision.index.is_multiple_of(3));
         let next = (first..=size).map(|step| VertiportIx::new((decision.at.at() + step) % size));
         let choice = next.into_iter().find(|&at| feasible.contains(at)).expect("hold is feasible");
         rows.push(simulation.apply(choice).expect("it is feasible"));
@@ -62,6 +62,12 @@ fn power_kw(kind: &AircraftType, at: &Vertiport, kwh: f64) -> f64 {
     let pair = pair.expect("a curve ends at 1");
     let along = (share - pair[0].charge) / (pair[1].charge - pair[0].charge);
     (pair[0].kw + along * (pair[1].kw - pair[0].kw)).min(most_kw)
+}
+
+/// The nearest whole number.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small numbers")]
+fn whole(number: f64) -> u32 {
+    number.round() as u32
 }
 
 /// What an aircraft does from the start of operations until a second.
@@ -127,8 +133,7 @@ fn watched(day: &Scenario, rows: &[TraceRow], position: usize, until_s: u32) -> 
     let (mut at, mut grounded) = (aircraft.at, (0, 0));
     for row in rows.iter().filter(|row| row.aircraft.at() == position && row.from != row.to) {
         let cruise_s = 3600.0 * day.distance_mi[(row.from, row.to)] / watch.kind().speed_mph;
-        let flight_s =
-            day.operations.takeoff_s + cruise_s.round() as u32 + day.operations.landing_s;
+        let flight_s = day.operations.takeoff_s + whole(cruise_s) + day.operations.landing_s;
         let leaves_s = row.arrival.seconds() - flight_s;
         watch.stand(at, leaves_s.min(until_s), grounded);
         if leaves_s >= until_s {
@@ -153,13 +158,16 @@ fn widths(svg: &str, entry: &str, rows: usize) -> Vec<f64> {
     let is_alike = |one: &str| {
         ["fill", "fill-opacity"].into_iter().all(|name| of(one, name) == of(legend, name))
     };
-    let paths = svg.split("<path").skip(1).filter(|one| is_alike(one.split('>').next().unwrap()));
+    let paths = svg
+        .split("<path")
+        .skip(1)
+        .filter(|one| is_alike(one.split('>').next().expect("a first part")));
     for path in paths {
         for block in of(path, " d").expect("a path").split('M').skip(1) {
             let numbers = block.split(|c: char| !c.is_ascii_digit() && c != '.' && c != '-');
             let numbers: Vec<f64> = numbers.filter_map(|one| one.parse().ok()).collect();
-            let row = (numbers[1] - 76.0) / 10.0;
-            widths[row as usize] += numbers[2];
+            // A row is 10 pixels high, and its bar begins above the middle of it.
+            widths[whole((numbers[1] - 76.0) / 10.0 - 0.5) as usize] += numbers[2];
         }
     }
     widths

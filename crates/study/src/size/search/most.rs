@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Design, IN_VAIN, MOST_BOUNDS, Search, Solver, prediction_margin, rounded};
+use super::{Design, MOST_BOUNDS, Search, Solver, rounded};
 use crate::error::Error;
 
 /// The ceiling is tight enough if it is higher than a bound by this share.
@@ -37,50 +37,5 @@ impl<S: Solver> Search<'_, S> {
             trial = next;
         }
         Ok(self.nearest(&center))
-    }
-
-    /// Plays designs around the best so far, from large steps to single ones.
-    pub(super) fn play_around(&mut self) -> Result<(), Error> {
-        let widest = self.space.dimensions.iter().map(|one| one.steps).max().unwrap_or(0);
-        let mut reach = (widest / 4).max(1);
-        while reach > 0 {
-            let both_ways = 2 * self.space.dimensions.len();
-            let most_in_vain = if reach == 1 { both_ways.max(IN_VAIN) } else { IN_VAIN };
-            let mut in_vain = 0;
-            while in_vain < most_in_vain && self.order.len() < self.budget {
-                let best = self.best().clone();
-                let next = self.leap(&best).or_else(|| self.most_promising(&best, reach));
-                let Some(next) = next else { break };
-                self.play(&next)?;
-                self.correct(&best, &next);
-                in_vain = if *self.best() == best { in_vain + 1 } else { 0 };
-            }
-            reach /= 2;
-        }
-        Ok(())
-    }
-
-    /// The design that is predicted to be best of all, if it is new and predicted to be better than
-    /// the best so far.
-    fn leap(&self, best: &Design) -> Option<Design> {
-        let here = self.space.above(best);
-        let expected = self.expected(best);
-        let found = self.nearest(&rounded(&expected.highest(&here)?));
-        let is_higher = expected.at(&self.space.above(&found)) > self.played[best];
-        (is_higher && !self.played.contains_key(&found)).then_some(found)
-    }
-
-    /// The design around another that is predicted to be best, if one is worth playing.
-    fn most_promising(&self, best: &Design, reach: u32) -> Option<Design> {
-        let value = self.played[best];
-        // One gives what the other takes, or an aircraft comes or leaves with its place.
-        let untried = self.untried(best, reach, |alike, same_way| alike != same_way);
-        let predicted = untried.map(|one| (self.predicted(best, &one), one));
-        predicted
-            .filter(|(predicted, one)| {
-                *predicted > value - prediction_margin(best, one) * value.abs()
-            })
-            .max_by(|one, other| one.0.total_cmp(&other.0))
-            .map(|(_, one)| one)
     }
 }
