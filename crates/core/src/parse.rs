@@ -1,10 +1,13 @@
 //! Reads text into raw structs: JSON and TOML, with one shape of error that names member, line and
-//! column.
+//! column. No entry of a list and no member is dropped ([`whole_lists`], `deny_unknown_fields`).
+
+mod whole_lists;
 
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use crate::{FileKind, FormatError};
+use whole_lists::Whole;
 
 /// The member that every file of this project has. Other members may be anything until the format
 /// is known.
@@ -109,7 +112,7 @@ fn json_value<T: DeserializeOwned>(text: &[u8]) -> Result<T, FormatError> {
         }
     };
     let mut deserializer = serde_json::Deserializer::from_slice(text);
-    let value = serde_path_to_error::deserialize(&mut deserializer)
+    let value = serde_path_to_error::deserialize(Whole(&mut deserializer))
         .map_err(|error| refuse(error.inner(), &error.path().to_string()))?;
     deserializer.end().map_err(|error| refuse(&error, "."))?;
     Ok(value)
@@ -123,7 +126,7 @@ fn toml_value<T: DeserializeOwned>(text: &str) -> Result<T, FormatError> {
     };
     let deserializer = toml::Deserializer::parse(text)
         .map_err(|error| place(&error).not_parsed(error.message()))?;
-    serde_path_to_error::deserialize(deserializer).map_err(|error| {
+    serde_path_to_error::deserialize(Whole(deserializer)).map_err(|error| {
         place(error.inner()).wrong_member(&error.path().to_string(), error.inner().message())
     })
 }

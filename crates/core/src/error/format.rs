@@ -52,7 +52,8 @@ pub enum FormatError {
     },
 
     /// V106 unknown, missing or wrong member. A member is unknown, missing, given twice, or of
-    /// another kind than its format asks for: a text for a number, a time that is not `HH:MM:SS`.
+    /// another kind than its format asks for: a text for a number, a time that is not `HH:MM:SS`, a
+    /// list of three numbers where two are read.
     ///
     /// Fix: compare the member that the message names with [the format](files.md).
     #[error("line {line}, column {column}: {member}{problem}")]

@@ -12,3 +12,4 @@ mod means;
 mod outputs;
 mod planning;
 mod sources;
+mod whole_lists;
