@@ -16,7 +16,7 @@ use self::member_path::position;
 use crate::parse::shortened;
 use crate::{Error, FormatError, Network};
 
-pub use differences::Difference;
+pub use differences::{DemandCell, Difference};
 pub use member_path::split_path;
 
 impl Network {

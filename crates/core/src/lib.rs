@@ -53,7 +53,7 @@ mod time;
 mod warning;
 mod world;
 
-pub use change::{Difference, split_path};
+pub use change::{DemandCell, Difference, split_path};
 pub use charge_rate::{Battery, ChargeRate, Need, whole_mwh};
 pub use charging::{ChargeCurve, Charging, CurvePoint};
 pub use code::{Code, Coded, Exit};

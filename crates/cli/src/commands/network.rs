@@ -299,7 +299,11 @@ fn diff(one: &str, other: &str, as_json: bool) -> Result<ExitCode, Failure> {
     let differences = before.differences(&after);
     let line = |difference: &vertifleet_core::Difference| {
         let text = |value: &Option<String>| value.clone().unwrap_or_else(|| "nothing".to_owned());
-        format!("{}: {} -> {}", difference.path, text(&difference.before), text(&difference.after))
+        let place = match &difference.demand {
+            Some(cell) => format!("demand from {} to {} at {}", cell.from, cell.to, cell.period),
+            None => difference.path.clone(),
+        };
+        format!("{place}: {} -> {}", text(&difference.before), text(&difference.after))
     };
     print(&if as_json {
         serde_json::to_string_pretty(&differences).expect("plain data")

@@ -1,5 +1,7 @@
 //! The members in which two network files differ, by the paths that changes and sweeps use.
 
+mod hourly_demand;
+
 use serde::Serialize;
 use toml::Value;
 
@@ -15,6 +17,20 @@ pub struct Difference {
     pub before: Option<String>,
     /// The value in the second file; `None` if the file does not have the member.
     pub after: Option<String>,
+    /// The pair and period, where it is a number of the hourly demand.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub demand: Option<DemandCell>,
+}
+
+/// A pair and a period of the hourly demand.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DemandCell {
+    /// The vertiport where passengers want to start.
+    pub from: String,
+    /// The vertiport where they want to go.
+    pub to: String,
+    /// The start of the period.
+    pub period: String,
 }
 
 impl Network {
@@ -26,7 +42,10 @@ impl Network {
             toml::from_str(network.toml()).expect("the text has been read before")
         };
         let mut found = Vec::new();
-        compare(String::new(), Some(&read(self)), Some(&read(other)), &mut found);
+        let (mut before, mut after) = (read(self), read(other));
+        let demand = hourly_demand::compare(&mut before, &mut after);
+        compare(String::new(), Some(&before), Some(&after), &mut found);
+        found.extend(demand);
         found
     }
 }
@@ -63,7 +82,7 @@ fn compare(
         (before, after) => {
             let text =
                 |value: Option<&Value>| value.map(|value| value.to_string().trim().to_owned());
-            found.push(Difference { path, before: text(before), after: text(after) });
+            found.push(Difference { path, before: text(before), after: text(after), demand: None });
         }
     }
 }
@@ -75,7 +94,7 @@ fn compare_positions(path: &str, before: &[Value], after: &[Value], found: &mut 
     if are_plain(before) && are_plain(after) {
         let text = |list: &[Value]| Some(Value::Array(list.to_vec()).to_string());
         let (before, after) = (text(before), text(after));
-        found.push(Difference { path: path.to_owned(), before, after });
+        found.push(Difference { path: path.to_owned(), before, after, demand: None });
         return;
     }
     for at in 0..before.len().max(after.len()) {

@@ -2,6 +2,7 @@
 
 mod any_input;
 mod beyond;
+mod demand_differences;
 mod drawing;
 mod energy;
 mod errors;
