@@ -53,6 +53,20 @@ pub struct Network {
     pub(crate) feature_scales: FeatureScales,
 }
 
+/// Reads the text of a network file with `read`, which gets the text, the file's folder and its name.
+fn read_text<E>(
+    path: &Path,
+    read: impl FnOnce(&str, Option<&Path>, &str) -> Result<Network, E>,
+) -> Result<Result<Network, E>, Error> {
+    let origin = origin(path);
+    let text = input::read_at_most(path, input::LONGEST_NETWORK)?;
+    let text = parse::utf8(&text).map_err(|error| error.in_file(&origin))?;
+    Ok(read(text, path.parent(), &origin).map(|mut network| {
+        network.files.push(path.to_owned());
+        network
+    }))
+}
+
 impl Network {
     /// Reads and checks a network file.
     ///
@@ -60,26 +74,16 @@ impl Network {
     /// The file, or the table of demand that it names, cannot be read, is too long, or breaks a
     /// rule of the format. The message names the member.
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
-        let path = path.as_ref();
-        let origin = origin(path);
-        let text = input::read_at_most(path, input::LONGEST_NETWORK)?;
-        let text = parse::utf8(&text).map_err(|error| error.in_file(&origin))?;
-        let mut network = network_file::network(text, path.parent(), &origin)?;
-        network.files.push(path.to_owned());
-        Ok(network)
+        read_text(path.as_ref(), network_file::network)?
     }
 
-    /// All errors of a network file that can be found in one pass, for people who are writing one;
-    /// none if it can be read.
+    /// Reads a network file, or returns all its errors that can be found in one pass, for people
+    /// who are writing one. The file is read once, so it may be a pipe.
     ///
     /// # Errors
     /// The file cannot be read, is no text, or is too long.
-    pub fn findings(path: impl AsRef<Path>) -> Result<Vec<Error>, Error> {
-        let path = path.as_ref();
-        let origin = origin(path);
-        let text = input::read_at_most(path, input::LONGEST_NETWORK)?;
-        let text = parse::utf8(&text).map_err(|error| error.in_file(&origin))?;
-        Ok(network_file::findings(text, path.parent(), &origin))
+    pub fn read_or_findings(path: impl AsRef<Path>) -> Result<Result<Self, Vec<Error>>, Error> {
+        read_text(path.as_ref(), network_file::network_or_findings)
     }
 
     /// Reads and checks the text of a network file, which must not name a table in another file.

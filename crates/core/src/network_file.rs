@@ -30,7 +30,7 @@ use crate::{
     Vertiport, VertiportIx, check, input, parse,
 };
 
-pub(crate) use findings::findings;
+pub(crate) use findings::network_or_findings;
 pub use sites::{EARTH_RADIUS_MI, great_circle_mi};
 
 const FORMAT: &str = "vertifleet-network/1";

@@ -164,18 +164,22 @@ fn trip_columns(named: &[(TripValue, String)]) -> Result<TripColumns<'_>, Failur
 fn check(files: &[PathBuf], as_json: bool) -> Result<ExitCode, Failure> {
     let (mut lines, mut list, mut errors) = (Vec::new(), Vec::new(), 0);
     for file in files {
-        let findings = Network::findings(file)?;
-        errors += findings.len();
-        for error in &findings {
-            lines.push(format!("error[{}]: {error}", error.code()));
-            lines.extend(error.hint().map(|hint| format!("hint: {hint}")));
-            list.push(json!({
-                "file": file, "kind": "error", "code": error.code().to_string(),
-                "message": error.to_string(), "hint": error.hint(),
-            }));
-        }
-        if findings.is_empty() {
-            let network = Network::read(file)?;
+        let network = match Network::read_or_findings(file)? {
+            Ok(network) => Some(network),
+            Err(findings) => {
+                errors += findings.len();
+                for error in &findings {
+                    lines.push(format!("error[{}]: {error}", error.code()));
+                    lines.extend(error.hint().map(|hint| format!("hint: {hint}")));
+                    list.push(json!({
+                        "file": file, "kind": "error", "code": error.code().to_string(),
+                        "message": error.to_string(), "hint": error.hint(),
+                    }));
+                }
+                None
+            }
+        };
+        if let Some(network) = network {
             for warning in network.warnings() {
                 lines.push(format!("warning[{}]: {}: {warning}", warning.code(), file.display()));
                 list.push(json!({

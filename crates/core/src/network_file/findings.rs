@@ -11,7 +11,7 @@ use super::{
     DemandModels, FORMAT, RawNetwork, fleet, name, network, start_charge, start_stands, time_zone,
 };
 use crate::raw::Positions;
-use crate::{Error, FormatError, parse};
+use crate::{Error, FormatError, Network, parse};
 
 /// The errors that have been found.
 struct Found(Vec<FormatError>);
@@ -23,11 +23,18 @@ impl Found {
     }
 }
 
-/// All errors of the text of a network file that can be found in one pass; none if it can be read.
-pub(crate) fn findings(text: &str, folder: Option<&Path>, origin: &str) -> Vec<Error> {
-    let Err(first) = network(text, folder, origin) else { return Vec::new() };
+/// The network of a text, or all its errors that can be found in one pass.
+pub(crate) fn network_or_findings(
+    text: &str,
+    folder: Option<&Path>,
+    origin: &str,
+) -> Result<Network, Vec<Error>> {
+    let first = match network(text, folder, origin) {
+        Ok(network) => return Ok(network),
+        Err(first) => first,
+    };
     let text = text.strip_prefix(parse::MARK).unwrap_or(text);
-    let Ok(raw) = parse::toml::<RawNetwork>(text, FORMAT) else { return vec![first] };
+    let Ok(raw) = parse::toml::<RawNetwork>(text, FORMAT) else { return Err(vec![first]) };
     let mut found = Found(Vec::new());
     raw.findings(&mut found);
     // An error that only the whole file has, as of distances or a table of demand, comes last.
@@ -36,7 +43,7 @@ pub(crate) fn findings(text: &str, folder: Option<&Path>, origin: &str) -> Vec<E
     if found.iter().all(|error| error.to_string() != message) {
         found.push(first);
     }
-    found
+    Err(found)
 }
 
 impl RawNetwork {

@@ -203,3 +203,20 @@ fn a_vertiport_without_a_corridor_is_named() {
     let warnings: Vec<String> = network.warnings().iter().map(ToString::to_string).collect();
     insta::assert_snapshot!(warnings.join("\n"));
 }
+
+#[cfg(unix)]
+#[test]
+fn a_network_in_a_pipe_is_checked_with_one_reading() {
+    use std::io::Write;
+    use std::os::fd::AsRawFd;
+    for (text, findings) in
+        [(NETWORK.to_owned(), 0), (NETWORK.replace("stands = 2", "stands = 0"), 1)]
+    {
+        let (reader, mut writer) = std::io::pipe().expect("a pipe");
+        writer.write_all(text.as_bytes()).expect("less than a pipe holds");
+        drop(writer);
+        let path = format!("/dev/fd/{}", reader.as_raw_fd());
+        let found = Network::read_or_findings(path).expect("the pipe is read");
+        assert_eq!(found.err().map_or(0, |findings| findings.len()), findings);
+    }
+}
