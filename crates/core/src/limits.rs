@@ -152,6 +152,10 @@ pub(crate) const RESERVE_KWH: Limits = Limits::between(0.0, 5_000.0);
 pub(crate) const CHARGE_KWH: Limits = Limits::between(0.0, 5_000.0);
 pub(crate) const SHARE: Limits =
     Limits::between(0.0, 1.0).hint("a charge is a share of the battery, 0.8 is 80 %");
+/// The two numbers of a point of a charge curve.
+pub(crate) const CURVE_CHARGE: Limits = Limits::between(0.0, 1.0).hint(CURVE_POINT);
+pub(crate) const CURVE_KW: Limits = CHARGE_KW.hint(CURVE_POINT);
+const CURVE_POINT: &str = "a point of a curve is [charge, power]: a share of the battery from 0 to 1, and kW from 1 to 100000";
 pub(crate) const SELF_DISCHARGE_PER_H: Limits = Limits::between(0.0, 1.0)
     .hint("self-discharge is a share of the battery's capacity, 0.01 is 1 %");
 

@@ -100,7 +100,21 @@ pub enum Warning {
         /// Mean number of all passengers a day.
         of_all: f64,
     },
+
+    /// V139 dear electricity (warning). Electricity costs more than 2 dollars a kWh on the mean of
+    /// the demand periods, or more than 10 in one of them. The price is probably one for a MWh, or
+    /// in cents. This is a warning: days are played all the same.
+    ///
+    /// Fix: give dollars a kWh. 45 dollars a MWh are 0.045 dollars a kWh.
+    DearEnergy {
+        /// The highest price of a demand period, dollars a kWh.
+        usd_per_kwh: f64,
+    },
 }
+
+/// The mean price of electricity, and the price of one period, above which the unit is probably
+/// another one; dollars a kWh. Wholesale markets have had prices of 9 dollars for some hours.
+const DEAR_USD: (f64, f64) = (2.0, 10.0);
 
 /// Shares of the demand below this are not worth a warning.
 const LEAST_SHARE: f64 = 0.01;
@@ -135,6 +149,7 @@ impl Warning {
             Self::NoStandFree { .. } => Code(136),
             Self::PairsOutOfReach { .. } => Code(137),
             Self::OutsideOperations { .. } => Code(138),
+            Self::DearEnergy { .. } => Code(139),
         }
     }
 
@@ -170,6 +185,11 @@ impl fmt::Display for Warning {
                 f,
                 "{passengers:.0} of {of_all:.0} passengers a day want to fly outside the hours of operation: they are always spilled"
             ),
+            Self::DearEnergy { usd_per_kwh } => write!(
+                f,
+                "electricity costs up to {usd_per_kwh} dollars a kWh: {usd_per_kwh} dollars a MWh would be {} dollars a kWh",
+                limits::number(usd_per_kwh / 1e3)
+            ),
         }
     }
 }
@@ -200,6 +220,7 @@ impl Network {
         let pairs = warnings.is_empty().then(|| self.pairs_out_of_reach(&means, of_all)).flatten();
         warnings.extend(day.full().into_iter().chain(pairs));
         warnings.extend(self.outside_operations(&means, of_all));
+        warnings.extend(day.dear_energy());
         warnings
     }
 
@@ -238,7 +259,17 @@ impl Scenario {
     /// The warnings of this scenario, in file order.
     pub fn warnings(&self) -> Vec<Warning> {
         let stranded = self.aircraft.iter().filter_map(|aircraft| self.stranded(aircraft));
-        self.out_of_reach().into_iter().chain(stranded).chain(self.full()).collect()
+        let warnings = self.out_of_reach().into_iter().chain(stranded);
+        warnings.chain(self.full()).chain(self.dear_energy()).collect()
+    }
+
+    /// The warning that the price of electricity is probably in another unit.
+    fn dear_energy(&self) -> Option<Warning> {
+        let prices = &self.energy_price_usd;
+        let usd_per_kwh = prices.iter().copied().fold(0.0, f64::max);
+        let mean = prices.iter().sum::<f64>() / prices.len() as f64;
+        let is_dear = mean > DEAR_USD.0 || usd_per_kwh > DEAR_USD.1;
+        is_dear.then_some(Warning::DearEnergy { usd_per_kwh })
     }
 
     /// The warning that an aircraft stays all day where it starts.

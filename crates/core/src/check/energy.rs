@@ -44,16 +44,16 @@ impl Check<'_> {
 
 /// Checks that a curve leads from an empty battery to a full one and never falls too low.
 fn charge_curve(kind: &AircraftType, curve: &ChargeCurve) -> Result<(), FormatError> {
-    let member = |at: usize| format!("aircraft type {:?}: charge_curve[{at}]", kind.id);
+    let member = |at: usize| format!("aircraft type {:?}: charge_curve: point {}", kind.id, at + 1);
     let points = curve.points();
     let whole = format!("aircraft type {:?}: charge_curve", kind.id);
     entry_count(&whole, points.len(), entries::CURVE_POINTS)?;
     for (at, point) in points.iter().enumerate() {
-        limits::SHARE.check(point.charge, || format!("{}[0]", member(at)))?;
-        limits::CHARGE_KW.check(point.kw, || format!("{}[1]", member(at)))?;
+        limits::CURVE_CHARGE.check(point.charge, || format!("{}: charge", member(at)))?;
+        limits::CURVE_KW.check(point.kw, || format!("{}: power", member(at)))?;
     }
     let wrong = |at: usize, rule: &str| FormatError::OutOfRange {
-        member: format!("{}[0]", member(at)),
+        member: format!("{}: charge", member(at)),
         rule: rule.to_owned(),
         found: limits::number(points[at].charge),
         hint: Some("a curve begins at charge 0, ends at charge 1, and its charges increase"),

@@ -22,10 +22,10 @@ fn members_against_the_rules_are_refused_with_the_rule() {
         ("charging = \"as_needed\"", "charging = \"now\"", "V112: quick.toml: operations: charging must be \"to_full\" or \"as_needed\", found \"now\"".to_owned()),
         ("reserve_kwh = 28.4", "reserve_kwh = 142", format!("V104: quick.toml: {kind} reserve_kwh must be less than battery_kwh, 142, found 142")),
         ("turnaround_s = 300", "turnaround_s = 1.5", format!("V104: quick.toml: {kind} turnaround_s must be a whole number, found 1.5")),
-        (curve, "charge_curve = [[0, 170], [1, -5]]", format!("V104: quick.toml: {kind} charge_curve[1][1] must be at least 1, found -5")),
-        (curve, "charge_curve = [[0, 170], [0.8, 90], [0.7, 60], [1, 5]]", format!("V104: quick.toml: {kind} charge_curve[2][0] must be more than that of the point before it, found 0.7")),
-        (curve, "charge_curve = [[0.1, 170], [1, 5]]", format!("V104: quick.toml: {kind} charge_curve[0][0] must be 0, an empty battery, found 0.1")),
-        (curve, "charge_curve = [[0, 170], [0.9, 5]]", format!("V104: quick.toml: {kind} charge_curve[1][0] must be 1, a full battery, found 0.9")),
+        (curve, "charge_curve = [[0, 170], [1, -5]]", format!("V104: quick.toml: {kind} charge_curve: point 2: power must be at least 1, found -5")),
+        (curve, "charge_curve = [[0, 170], [0.8, 90], [0.7, 60], [1, 5]]", format!("V104: quick.toml: {kind} charge_curve: point 3: charge must be more than that of the point before it, found 0.7")),
+        (curve, "charge_curve = [[0.1, 170], [1, 5]]", format!("V104: quick.toml: {kind} charge_curve: point 1: charge must be 0, an empty battery, found 0.1")),
+        (curve, "charge_curve = [[0, 170], [0.9, 5]]", format!("V104: quick.toml: {kind} charge_curve: point 2: charge must be 1, a full battery, found 0.9")),
         ("start_positions = \"random\"", "start_charge = [0.9, 0.5]\nstart_positions = \"random\"", "V104: quick.toml: start_charge[1] must be at least start_charge[0], 0.9, found 0.5".to_owned()),
     ] {
         assert_eq!(refused(line, other), rule);
