@@ -5,10 +5,10 @@
 //! vertiports.
 
 use std::collections::HashMap;
-use std::path::Path;
 
 use crate::features::{self, Shape};
 use crate::globe::{Place, length_mi};
+use crate::input_file::InputFile;
 use crate::row::{Column, optional, required};
 use crate::vertiports::Vertiports;
 use crate::{Error, Warning};
@@ -32,13 +32,13 @@ pub(crate) struct Corridor {
 
 /// Reads a GeoJSON file of lines.
 pub(crate) fn read(
-    path: &Path,
+    file: &InputFile<'_>,
     vertiports: &Vertiports,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Corridor>, Error> {
     let mut corridors = Vec::new();
     let mut known: HashMap<(usize, usize), usize> = HashMap::new();
-    features::shapes(path, &COLUMNS, warnings, |shape| {
+    features::shapes(file, &COLUMNS, warnings, |shape| {
         let corridor = corridor(shape, vertiports)?;
         let (from, to) = corridor.ends;
         let routes = [(from, to), (to, from)];
@@ -53,7 +53,7 @@ pub(crate) fn read(
         Ok(())
     })?;
     if corridors.is_empty() {
-        return Err(Error::Nothing { origin: path.display().to_string(), what: "corridors" });
+        return Err(Error::Nothing { origin: file.origin(), what: "corridors" });
     }
     Ok(corridors)
 }

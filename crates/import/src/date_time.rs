@@ -76,6 +76,11 @@ impl Date {
         Self { days: self.days.saturating_sub(1) }
     }
 
+    /// The number of days from this date to another, below 0 if that one is earlier.
+    pub(crate) fn days_until(self, other: Self) -> i32 {
+        other.days.saturating_sub(self.days)
+    }
+
     /// The dates from this one to another.
     pub(crate) fn to(self, last: Self) -> impl Iterator<Item = Self> + Clone {
         (self.days..=last.days).map(|days| Self { days })
@@ -97,7 +102,7 @@ impl Date {
     }
 
     /// Year, month and day.
-    fn parts(self) -> (i64, i64, i64) {
+    pub(crate) fn parts(self) -> (i64, i64, i64) {
         let days = i64::from(self.days) + 719_468;
         let (era, day) = (days.div_euclid(146_097), days.rem_euclid(146_097));
         let year = (day - day / 1_460 + day / 36_524 - day / 146_096) / 365;

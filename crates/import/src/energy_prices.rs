@@ -5,11 +5,11 @@
 //! changes has the mean over its time.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use vertifleet_core::{Operations, Time};
 
 use crate::error::shortened;
+use crate::input_file::InputFile;
 use crate::row::{Column, required};
 use crate::table;
 use crate::{Error, Warning};
@@ -29,10 +29,10 @@ pub(crate) struct EnergyPrices {
 
 impl EnergyPrices {
     /// Reads a table.
-    pub(crate) fn read(path: &Path, warnings: &mut Vec<Warning>) -> Result<Self, Error> {
-        let origin = path.display().to_string();
+    pub(crate) fn read(file: &InputFile<'_>, warnings: &mut Vec<Warning>) -> Result<Self, Error> {
+        let origin = file.origin();
         let mut rows: BTreeMap<Time, (f64, usize)> = BTreeMap::new();
-        table::rows(path, &COLUMNS, warnings, |row| {
+        table::rows(file, &COLUMNS, warnings, |row| {
             let period = row.time(0)?;
             let price = row.number(1, 0.0, MOST_USD)?;
             match rows.insert(period, (price, row.position)) {

@@ -15,7 +15,8 @@ pub enum Error {
     /// bytes promise, or it is damaged. Or its text is not UTF-8: some spreadsheets save "Unicode
     /// text" in UTF-16, and CSV in Windows-1252. Or a row has more values than the header has
     /// columns, as where a decimal comma is not in quotes. Or a map is in another reference system
-    /// than longitude and latitude.
+    /// than longitude and latitude. The message names the formats of other programs, such as TNTP,
+    /// OMX, FlatGeobuf, Feather, TopoJSON, newline-delimited GeoJSON, GBFS and JSON lines.
     ///
     /// Fix: look at the place in the message; write the file again as CSV, GeoJSON or Parquet, its
     /// text in UTF-8.
@@ -70,7 +71,8 @@ pub enum Error {
     /// V704 given twice in data of your own. A file gives the same vertiport, zone, corridor, pair,
     /// period, column or property twice.
     ///
-    /// Fix: remove one of the two, or rename it.
+    /// Fix: remove one of the two, or rename it. If a column that is not read splits the table, as
+    /// the hint may state, keep the rows of one of its values.
     #[error("{origin}: {place}: {what} is given before, in {before}")]
     GivenTwice {
         /// The file.
@@ -81,6 +83,8 @@ pub enum Error {
         what: String,
         /// The first line, feature or row.
         before: String,
+        /// The columns in which the two may differ.
+        hint: Option<String>,
     },
 
     /// V705 unknown vertiport in data of your own. A row or feature names a vertiport that the file
@@ -299,9 +303,10 @@ impl Coded for Error {
                 "an aircraft needs a stand wherever it is, also on its way there: ask for fewer with --aircraft, or give the vertiports more stands",
             ),
             Self::Core(error) => error.hint(),
-            Self::MissingColumn { hint, .. } | Self::UnknownVertiport { meant: hint, .. } => {
-                hint.as_deref()
-            }
+            Self::MissingColumn { hint, .. }
+            | Self::GivenTwice { hint, .. }
+            | Self::UnknownVertiport { meant: hint, .. } => hint.as_deref(),
+            Self::Setting { setting: "mode_share", .. } => Some("a share of 5 % is 0.05"),
             Self::CorridorEnd { exchanged: true, .. } => {
                 Some("latitude and longitude are exchanged: in GeoJSON the longitude comes first")
             }

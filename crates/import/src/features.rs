@@ -2,8 +2,6 @@
 //! them.
 
 use std::borrow::Cow;
-use std::ffi::OsStr;
-use std::path::Path;
 
 use geojson::feature::Id;
 use geojson::{
@@ -14,19 +12,19 @@ use crate::cell::Cell;
 use crate::error::shortened;
 use crate::globe::Place;
 use crate::header::{Header, Named};
+use crate::input_file::InputFile;
 use crate::row::{Column, Need, Positions, Row};
-use crate::source::read_whole;
+use crate::source::{GENERAL, other_json, read_whole};
 use crate::table::{text, without_mark};
 use crate::{Error, Warning, strict_json};
 
 /// Whether a file is GeoJSON, by its name or, where the name does not show it, by its first
 /// character.
-pub(crate) fn is_geojson(path: &Path) -> Result<bool, Error> {
-    let extension = path.extension().map(OsStr::to_ascii_lowercase);
-    match extension.as_ref().and_then(|extension| extension.to_str()) {
+pub(crate) fn is_geojson(file: &InputFile<'_>) -> Result<bool, Error> {
+    match file.extension().as_deref() {
         Some("geojson" | "json") => Ok(true),
         Some("csv" | "parquet") => Ok(false),
-        _ => Ok(without_mark(&read_whole(path)?).trim_ascii_start().starts_with(b"{")),
+        _ => Ok(without_mark(&read_whole(file)?).trim_ascii_start().starts_with(b"{")),
     }
 }
 
@@ -46,19 +44,23 @@ pub(crate) struct Ring {
 /// if no property has this name. `warnings` has properties that are not read and look like one that
 /// is.
 pub(crate) fn shapes(
-    path: &Path,
+    file: &InputFile<'_>,
     columns: &[Column],
     warnings: &mut Vec<Warning>,
     mut each: impl FnMut(&Shape<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let origin = path.display().to_string();
-    let bytes = read_whole(path)?;
+    let origin = file.origin();
+    let bytes = read_whole(file)?;
     let kind = "a GeoJSON FeatureCollection";
     let wrong = |problem: String| Error::NotParsed { origin: origin.clone(), kind, problem };
     let text = text(&bytes, kind, &origin)?;
-    let collection: FeatureCollection = strict_json::check(text)
-        .and_then(|()| serde_json::from_slice(text))
-        .map_err(|error| wrong(shortened(&error.to_string(), 300)))?;
+    let collection: FeatureCollection =
+        strict_json::check(text).and_then(|()| serde_json::from_slice(text)).map_err(|error| {
+            match other_json(text).filter(|problem| !is_collection(text) && !is_general(problem)) {
+                Some(problem) => wrong(problem.to_owned()),
+                None => wrong(shortened(&error.to_string(), 300)),
+            }
+        })?;
     if let Some(system) = other_system(&collection) {
         return Err(wrong(format!(
             "its positions are in {}: export it in longitude and latitude (WGS 84, EPSG:4326)",
@@ -85,6 +87,7 @@ pub(crate) fn shapes(
                 place: format!("feature {position}"),
                 what: format!("the property {:?}", shortened(twice, 64)),
                 before: "the same feature".to_owned(),
+                hint: None,
             })?;
             values.push(value);
         }
@@ -92,11 +95,22 @@ pub(crate) fn shapes(
         let cells: Vec<Cell<'_>> =
             texts.map(|text| text.map_or(Cell::Missing, Cell::text)).collect();
         let positions = Positions::Features;
-        let row = Row { origin: &origin, positions, position, columns, cells: &cells };
+        let row = Row { origin: &origin, positions, position, columns, cells: &cells, wide: &[] };
         let geometry = feature.geometry.as_ref().map(|geometry| &geometry.value);
         each(&Shape { row, geometry })?;
     }
     Ok(())
+}
+
+/// Whether the parser's message is better than this one.
+fn is_general(problem: &str) -> bool {
+    GENERAL.into_iter().any(|general| problem.starts_with(general))
+}
+
+/// Whether a text begins as a FeatureCollection does, so that an error is one of its features.
+fn is_collection(text: &[u8]) -> bool {
+    let begin = String::from_utf8_lossy(&text[..text.len().min(1_024)]);
+    begin.contains("FeatureCollection")
 }
 
 /// The reference system of a map, if it names one in which positions are not longitude and

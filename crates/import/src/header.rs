@@ -3,7 +3,7 @@
 use crate::cell::printable;
 use crate::error::shortened;
 use crate::row::{Column, Need};
-use crate::{Error, Warning};
+use crate::{Error, Warning, units};
 
 /// The names of the columns of a table, or of the properties of features.
 #[derive(Clone, Copy)]
@@ -30,9 +30,16 @@ impl Named {
 }
 
 impl<'a> Header<'a> {
-    /// The position of a name. Upper and lower case are the same.
+    /// The position of a name. Upper and lower case are the same. A name with underscores is also
+    /// one with blanks, as `Trip Start Timestamp`.
     pub(crate) fn position(&self, name: &str) -> Option<usize> {
-        self.names.iter().position(|has| has.eq_ignore_ascii_case(name.trim()))
+        let same = |has: &String| has.eq_ignore_ascii_case(name.trim());
+        let same_words = |has: &String| {
+            let words = has.split(' ').filter(|word| !word.is_empty());
+            words.collect::<Vec<_>>().join("_").eq_ignore_ascii_case(name)
+        };
+        let position = self.names.iter().position(same);
+        position.or_else(|| self.names.iter().position(same_words))
     }
 
     /// The positions of the wanted columns. A name that is used must not occur twice. Names that
@@ -75,6 +82,7 @@ impl<'a> Header<'a> {
             place: place(second),
             what: format!("the name {:?}", shortened(&self.names[second], 64)),
             before: place(at),
+            hint: None,
         })
     }
 
@@ -100,12 +108,19 @@ impl<'a> Header<'a> {
     }
 
     fn hint(&self, missing: &Missing<'_>) -> Option<String> {
-        let similar = |name: &&str| {
-            let free = self.free(missing.used);
-            self.similar(name, missing.used).or_else(|| nearest(name, free))
+        let found = |wanted: &str| {
+            let similar = self.similar(wanted, missing.used);
+            similar.or_else(|| self.nearest(wanted, missing.used))
         };
-        let similar = missing.like.iter().find_map(similar);
-        let meant = similar.map(|name| format!("did you mean {}?", shortened(name, 64)));
+        let similar =
+            missing.like.iter().copied().find_map(|wanted| Some((wanted, found(wanted)?)));
+        let meant = similar.map(|(wanted, name)| {
+            if !units::differ(wanted, name) {
+                return format!("did you mean {}?", shortened(name, 64));
+            }
+            let (name, step) = (shortened(&printable(name), 64), units::conversion(wanted, name));
+            format!("{name:?} is in another unit: {step}, and name the column {wanted}")
+        });
         match (meant, missing.remedy) {
             (Some(meant), Some(remedy)) => Some(format!("{meant} {remedy}")),
             (meant, remedy) => meant.or_else(|| remedy.map(str::to_owned)),
@@ -115,20 +130,24 @@ impl<'a> Header<'a> {
     /// The warning that a column is absent and one of a similar name is not read.
     fn overlooked(&self, column: &str, used: &[usize]) -> Option<Warning> {
         // Many short words differ in only two letters, such as name and date.
-        let nearest = || nearest(column, self.free(used)).filter(|_| column.len() > 4);
+        let nearest = || self.nearest(column, used).filter(|_| column.len() > 4);
         let similar = self.similar(column, used).or_else(nearest)?;
-        Some(Warning::Columns {
-            origin: self.origin.to_owned(),
-            problem: format!(
-                "the {} {:?} is not read: rename it to {column} if it means that",
-                self.of.one(),
-                shortened(&printable(similar), 64),
-            ),
-        })
+        let name = shortened(&printable(similar), 64);
+        let one = self.of.one();
+        let problem = if units::differ(column, similar) {
+            let step = units::conversion(column, similar);
+            format!(
+                "the {one} {name:?} is not read, and is in another unit: {step}, and rename it to {column}, if it means that"
+            )
+        } else {
+            format!("the {one} {name:?} is not read: rename it to {column} if it means that")
+        };
+        Some(Warning::Columns { origin: self.origin.to_owned(), problem })
     }
 
-    /// A name that is not used and is the beginning of this one (`fare` for `fare_usd`) or has it
-    /// as a word (`number of stands`).
+    /// A name that is not used and is the beginning of this one (`fare` for `fare_usd`), has it as
+    /// a word (`number of stands`), or has all its words (`charging_power_kw` for `charger_kw`).
+    /// Names in the same unit come first.
     fn similar(&self, column: &str, used: &[usize]) -> Option<&'a str> {
         let begins = |name: &&str| {
             let beginning = column.get(..name.len());
@@ -138,8 +157,40 @@ impl<'a> Header<'a> {
             let mut words = name.split(|c: char| !c.is_alphanumeric());
             column.len() > 2 && words.any(|word| word.eq_ignore_ascii_case(column))
         };
+        let of_column: Vec<String> = units::words(column).collect();
+        let has_all_words = |name: &&str| {
+            let words: Vec<String> = units::words(name).collect();
+            of_column.len() > 1
+                && of_column.iter().all(|word| words.iter().any(|other| are_alike(word, other)))
+        };
         let free = || self.free(used);
-        free().find(begins).or_else(|| free().find(has_word))
+        let in_unit = || free().filter(|name| !units::differ(column, name));
+        in_unit()
+            .find(begins)
+            .or_else(|| in_unit().find(has_word))
+            .or_else(|| in_unit().find(has_all_words))
+            .or_else(|| free().find(has_all_words))
+    }
+
+    /// The nearest name that is not used, of those in the same unit if any is near.
+    fn nearest(&self, column: &str, used: &[usize]) -> Option<&'a str> {
+        let in_unit = self.free(used).filter(|name| !units::differ(column, name));
+        nearest(column, in_unit).or_else(|| nearest(column, self.free(used))).or_else(|| {
+            let is_beside = |name: &&str| {
+                units::differ(column, name)
+                    && units::words(name).next() == units::words(column).next()
+            };
+            // `lmp_usd_per_mwh` for `price_usd_per_kwh`: the same kind of unit, and another name.
+            let kind: Vec<String> = units::words(column).skip(1).collect();
+            let has_kind = |name: &&str| {
+                let words: Vec<String> = units::words(name).collect();
+                let near = |one: &String| {
+                    words.iter().any(|word| nearest(one, [word.as_str()].into_iter()).is_some())
+                };
+                kind.len() > 1 && kind.iter().all(near)
+            };
+            self.free(used).find(is_beside).or_else(|| self.free(used).find(has_kind))
+        })
     }
 
     /// The names that are not used.
@@ -147,6 +198,13 @@ impl<'a> Header<'a> {
         let names = self.names.iter().enumerate();
         names.filter(|(at, _)| !used.contains(at)).map(|(_, name)| name.as_str())
     }
+}
+
+/// Whether two words are the same but for an ending, as charger and charging are.
+fn are_alike(one: &str, other: &str) -> bool {
+    const STEM: usize = 5;
+    let stem = one.get(..STEM).zip(other.get(..STEM));
+    one == other || stem.is_some_and(|(one, other)| one == other)
 }
 
 fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {

@@ -1,11 +1,13 @@
 //! Mean passengers of each pair and period, and the table that a planner may give them in.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::path::Path;
 
 use vertifleet_core::Time;
 
-use crate::row::{Column, required};
+use crate::cell::Cell;
+use crate::clock;
+use crate::input_file::InputFile;
+use crate::row::{Column, Row, required};
 use crate::table;
 use crate::vertiports::Vertiports;
 use crate::{Error, Warning};
@@ -38,27 +40,40 @@ impl HourlyDemand {
     /// Reads a table. Operations begin at `start`; where the table begins later, an empty period
     /// comes first.
     pub(crate) fn read(
-        path: &Path,
+        file: &InputFile<'_>,
         vertiports: &Vertiports,
         start: Time,
         warnings: &mut Vec<Warning>,
     ) -> Result<Self, Error> {
-        // The value and position of each cell that the table gives.
-        let mut cells: HashMap<(Time, (usize, usize)), (f64, usize)> = HashMap::new();
-        let mut starts = BTreeSet::new();
-        table::rows(path, &COLUMNS, warnings, |row| {
-            let ends = row.pair(FROM, TO, vertiports)?;
-            let period = row.time(PERIOD)?;
-            let passengers = row.number(PASSENGERS, 0.0, MOST_PASSENGERS)?;
-            if let Some((_, before)) = cells.insert((period, ends), (passengers, row.position)) {
-                let (from, to) = (&vertiports.list[ends.0].id, &vertiports.list[ends.1].id);
-                let what = format!("the demand from {from:?} to {to:?} at {period}");
-                return Err(row.given_twice(what, before));
+        let mut cells = Cells::default();
+        match Layout::of(&table::csv_names(file)?, vertiports) {
+            Layout::Long => {
+                table::rows(file, &COLUMNS, warnings, |row| cells.add(row, vertiports))?
             }
-            starts.insert(period);
-            Ok(())
-        })?;
-        let origin = || path.display().to_string();
+            Layout::Periods(wide) => {
+                cells.starts.extend(wide.iter().filter_map(|one| clock::begin(one.cell())));
+                let at: Vec<usize> = wide.iter().map(|one| one.at).collect();
+                table::wide_rows(file, (&COLUMNS[FROM..=TO], &at), warnings, |row| {
+                    wide.iter().zip(row.wide).try_for_each(|(one, value)| {
+                        let values = [one.cell(), row.cells[0], row.cells[1], *value];
+                        cells.add_wide(row, &values, vertiports)
+                    })
+                })?;
+            }
+            Layout::Destinations(wide) => {
+                let at: Vec<usize> = wide.iter().map(|one| one.at).collect();
+                table::wide_rows(file, (&COLUMNS[PERIOD..=FROM], &at), warnings, |row| {
+                    cells.starts.insert(row.time(0)?);
+                    wide.iter().zip(row.wide).try_for_each(|(one, value)| {
+                        let values = [row.cells[0], row.cells[1], one.cell(), *value];
+                        cells.add_wide(row, &values, vertiports)
+                    })
+                })?;
+            }
+        }
+        warnings.extend(cells.other_ends(&file.origin()));
+        let Cells { given: cells, mut starts, .. } = cells;
+        let origin = || file.origin();
         let Some(&first) = starts.first() else {
             return Err(Error::Nothing { origin: origin(), what: "demand" });
         };
@@ -81,5 +96,116 @@ impl HourlyDemand {
     /// Passengers of all pairs and periods together.
     pub(crate) fn passengers(&self) -> f64 {
         self.pairs.values().flatten().sum()
+    }
+}
+
+/// The columns that a table of demand has besides the names of its rows.
+enum Layout {
+    /// A row for each period and pair.
+    Long,
+    /// A column for each period.
+    Periods(Vec<WideColumn>),
+    /// A column for each destination.
+    Destinations(Vec<WideColumn>),
+}
+
+/// A column whose name is a value of its rows.
+struct WideColumn {
+    at: usize,
+    name: String,
+}
+
+impl WideColumn {
+    /// Its name as a value.
+    fn cell(&self) -> Cell<'_> {
+        Cell::text(self.name.as_bytes())
+    }
+}
+
+impl Layout {
+    fn of(names: &[String], vertiports: &Vertiports) -> Self {
+        let has =
+            |at: usize| names.iter().any(|name| name.eq_ignore_ascii_case(COLUMNS[at].names[0]));
+        let columns = |is_one: &dyn Fn(&str) -> bool| -> Vec<WideColumn> {
+            let named = names.iter().enumerate().filter(|(_, name)| is_one(name));
+            named.map(|(at, name)| WideColumn { at, name: name.clone() }).collect()
+        };
+        if has(PASSENGERS) || !has(FROM) {
+            return Self::Long;
+        }
+        let is_time = |name: &str| clock::begin(Cell::text(name.as_bytes())).is_some();
+        let is_vertiport =
+            |name: &str| vertiports.find(name, Cell::text(name.as_bytes()).whole()).is_some();
+        let wide = match (has(PERIOD), has(TO)) {
+            (false, true) => Self::Periods(columns(&is_time)),
+            (true, false) => Self::Destinations(columns(&is_vertiport)),
+            _ => Self::Long,
+        };
+        match &wide {
+            Self::Periods(columns) | Self::Destinations(columns) if columns.is_empty() => {
+                Self::Long
+            }
+            _ => wide,
+        }
+    }
+}
+
+/// The cells of a table of demand while it is read.
+#[derive(Default)]
+struct Cells {
+    /// The value and position of each cell that the table gives.
+    given: HashMap<(Time, (usize, usize)), (f64, usize)>,
+    starts: BTreeSet<Time>,
+    /// The ends of periods that the table states.
+    ends: BTreeMap<Time, Time>,
+}
+
+impl Cells {
+    fn add(&mut self, row: &Row<'_>, vertiports: &Vertiports) -> Result<(), Error> {
+        let ends = row.pair(FROM, TO, vertiports)?;
+        let period = row.time(PERIOD)?;
+        let passengers = row.number(PASSENGERS, 0.0, MOST_PASSENGERS)?;
+        if let Some((_, before)) = self.given.insert((period, ends), (passengers, row.position)) {
+            let (from, to) = (&vertiports.list[ends.0].id, &vertiports.list[ends.1].id);
+            let what = format!("the demand from {from:?} to {to:?} at {period}");
+            return Err(row.given_twice(what, before));
+        }
+        self.starts.insert(period);
+        if let Some((begin, Some(end))) = clock::span(row.cells[PERIOD]) {
+            self.ends.insert(begin, end);
+        }
+        Ok(())
+    }
+
+    /// Adds a value of a wide table. An empty one is none, and so is 0 from a vertiport to itself.
+    fn add_wide(
+        &mut self,
+        row: &Row<'_>,
+        cells: &[Cell<'_>; 4],
+        vertiports: &Vertiports,
+    ) -> Result<(), Error> {
+        let row = Row { columns: &COLUMNS, cells, wide: &[], ..*row };
+        let is_nothing = cells[PASSENGERS].number() == Some(0.0);
+        let is_itself = || -> Result<bool, Error> {
+            Ok(row.vertiport(FROM, vertiports)? == row.vertiport(TO, vertiports)?)
+        };
+        if !row.has(PASSENGERS) || is_nothing && is_itself()? {
+            return Ok(());
+        }
+        self.add(&row, vertiports)
+    }
+
+    /// The warning that a period lasts until another time than the table states.
+    fn other_ends(&self, origin: &str) -> Option<Warning> {
+        let nexts = self.starts.iter().zip(self.starts.iter().skip(1));
+        let (begin, next, end) = nexts
+            .filter_map(|(begin, next)| Some((begin, next, self.ends.get(begin)?)))
+            .find(|(_, next, end)| next != end)?;
+        Some(Warning::Demand {
+            origin: origin.to_owned(),
+            problem: format!(
+                "the period {begin} ends at {end} in the table, and lasts until the next one, {next}: give each hour a row"
+            ),
+        })
     }
 }

@@ -11,6 +11,7 @@
 //! and latitude in degrees.
 
 mod cell;
+mod clock;
 mod corridors;
 mod date_time;
 mod demand_comments;
@@ -22,17 +23,20 @@ mod fleet;
 mod globe;
 mod header;
 mod hourly_demand;
+mod input_file;
 mod network_text;
 mod new_network;
 mod parquet_file;
 mod parquet_meaning;
 mod row;
 mod source;
+mod splitting;
 mod strict_json;
 mod table;
 mod tariffs;
 mod trip_times;
 mod trips;
+mod units;
 mod vertiports;
 mod warning;
 mod zones;
@@ -43,6 +47,7 @@ use vertifleet_core::{Network, Stop};
 
 use energy_prices::EnergyPrices;
 use hourly_demand::HourlyDemand;
+use input_file::InputFile;
 use network_text::{FromFile, NetworkText};
 use vertiports::Vertiports;
 
@@ -124,26 +129,30 @@ pub fn import(
     stop.check()?;
     let time_zone = request.time_zone.map(trip_times::zone).transpose()?;
     let mut warnings = Vec::new();
-    let vertiports = Vertiports::read(request.vertiports, &mut warnings)?;
+    let file = |path| InputFile::open(path, source::LONGEST, stop);
+    let vertiports = Vertiports::read(&file(request.vertiports)?, &mut warnings)?;
     let text = NetworkText {
         base: request.base,
         name: request.name,
         vertiports: FromFile { what: &vertiports, path: request.vertiports },
         corridors: read(request.corridors, |path| {
-            corridors::read(path, &vertiports, &mut warnings)
+            corridors::read(&file(path)?, &vertiports, &mut warnings)
         })?,
         pair_tariffs: read(request.tariffs, |path| {
-            tariffs::pairs(path, &vertiports, &mut warnings)
+            tariffs::pairs(&file(path)?, &vertiports, &mut warnings)
         })?,
         aircraft: request.aircraft,
         time_zone: request.time_zone,
-        energy_prices: read(request.energy_prices, |path| EnergyPrices::read(path, &mut warnings))?,
+        energy_prices: read(request.energy_prices, |path| {
+            EnergyPrices::read(&file(path)?, &mut warnings)
+        })?,
     };
     let operations = request.base.operations();
     stop.check()?;
     let (demand, source, account) = match &request.demand {
         Demand::Table(path) => {
-            let demand = HourlyDemand::read(path, &vertiports, operations.start, &mut warnings)?;
+            let demand =
+                HourlyDemand::read(&file(path)?, &vertiports, operations.start, &mut warnings)?;
             let source = demand_comments::of_table(path, &demand);
             (demand, source, None)
         }
@@ -174,10 +183,10 @@ pub fn import(
 }
 
 /// Reads a file that may be absent.
-fn read<T>(
-    path: Option<&Path>,
-    read: impl FnOnce(&Path) -> Result<T, Error>,
-) -> Result<Option<FromFile<'_, T>>, Error> {
+fn read<'a, T>(
+    path: Option<&'a Path>,
+    read: impl FnOnce(&'a Path) -> Result<T, Error>,
+) -> Result<Option<FromFile<'a, T>>, Error> {
     path.map(|path| Ok(FromFile { what: read(path)?, path })).transpose()
 }
 

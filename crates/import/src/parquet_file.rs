@@ -4,7 +4,6 @@
 //! types contradict each other is an error here, also where the library would panic on it.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
 
 use parquet::basic::Compression;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -19,6 +18,7 @@ use parquet::schema::types::ColumnDescriptor;
 use crate::Error;
 use crate::cell::Cell;
 use crate::error::shortened;
+use crate::input_file::InputFile;
 use crate::parquet_meaning::{Meaning, written};
 
 /// The bytes with which a Parquet file begins.
@@ -27,9 +27,8 @@ pub(crate) const MAGIC: &[u8] = b"PAR1";
 const BATCH: usize = 8_192;
 
 /// Whether a file is Parquet, by its name or its first bytes.
-pub(crate) fn is_parquet(path: &Path, first_bytes: &[u8]) -> bool {
-    let named = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("parquet"));
-    named || first_bytes.starts_with(MAGIC)
+pub(crate) fn is_parquet(file: &InputFile<'_>, first_bytes: &[u8]) -> bool {
+    file.extension().as_deref() == Some("parquet") || first_bytes.starts_with(MAGIC)
 }
 
 /// An open Parquet file.

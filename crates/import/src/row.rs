@@ -7,6 +7,7 @@ use vertifleet_core::Time;
 
 use crate::Error;
 use crate::cell::{Cell, composed};
+use crate::clock;
 use crate::error::{did_you_mean, shortened};
 use crate::globe::Place;
 use crate::vertiports::Vertiports;
@@ -55,7 +56,7 @@ pub(crate) enum Positions<'a> {
 }
 
 /// A row or feature.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Row<'a> {
     pub(crate) origin: &'a str,
     pub(crate) positions: Positions<'a>,
@@ -63,6 +64,8 @@ pub(crate) struct Row<'a> {
     pub(crate) columns: &'a [Column],
     /// One for each column.
     pub(crate) cells: &'a [Cell<'a>],
+    /// The values of the columns that a wide table has instead of several rows.
+    pub(crate) wide: &'a [Cell<'a>],
 }
 
 impl Row<'_> {
@@ -159,18 +162,15 @@ impl Row<'_> {
         }
     }
 
-    /// The time of a column: `HH:MM`, with or without seconds, or an hour of the day.
+    /// The time of a column, in any form in which planners write the begin of a period.
     pub(crate) fn time(&self, column: usize) -> Result<Time, Error> {
-        const LAST_HOUR: u32 = 47;
-        let cell = self.cells[column];
-        let hour = cell.whole().and_then(|hour| u32::try_from(hour).ok());
-        let time = match hour {
-            Some(hour) => Some(hour).filter(|&hour| hour <= LAST_HOUR).map(|hour| hour * 3600),
-            None => time_of_day(&cell.shown()).map(Time::seconds),
-        };
-        let time = time.filter(|&second| second < (LAST_HOUR + 1) * 3600).map(Time::from_seconds);
-        let rule = || format!("a time as HH:MM or HH:MM:SS, or an hour from 0 to {LAST_HOUR}");
-        time.ok_or_else(|| self.wrong(column, rule()))
+        // No period of a network begins later.
+        const LAST: u32 = 36;
+        let time = clock::begin(self.cells[column]).filter(|time| time.seconds() <= LAST * 3600);
+        let rule = format!(
+            "a time as HH:MM, HH:MM:SS, 6:00 AM or 06:00-07:00, or an hour, from 0 to {LAST}:00"
+        );
+        time.ok_or_else(|| self.wrong(column, rule))
     }
 
     /// The position of the vertiport that a column names.
@@ -223,6 +223,7 @@ impl Row<'_> {
             place: self.place(),
             what,
             before: self.place_of(before),
+            hint: None,
         }
     }
 
@@ -240,9 +241,4 @@ impl Row<'_> {
     fn member(&self, column: usize) -> &'static str {
         self.columns[column].names[0]
     }
-}
-
-/// Reads a time, which spreadsheets often write without seconds.
-fn time_of_day(text: &str) -> Option<Time> {
-    text.parse().or_else(|_| format!("{text}:00").parse()).ok()
 }

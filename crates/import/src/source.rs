@@ -5,25 +5,39 @@
 //! as a workbook.
 
 use std::fs::File;
-use std::io::{Cursor, ErrorKind, Read, Seek};
-use std::path::Path;
+use std::io::{Cursor, Read, Seek};
 
 use flate2::read::MultiGzDecoder;
-use vertifleet_core::{Error as CoreError, FormatError, read_at_most};
+use vertifleet_core::FormatError;
 use zip::ZipArchive;
 use zip::result::ZipError;
 
 use crate::Error;
 use crate::error::shortened;
+use crate::input_file::InputFile;
 
 /// The longest file that is read whole, packed or unpacked.
 pub(crate) const LONGEST: u64 = 16 << 20;
 /// Number of first bytes by which a file is recognised.
-const OPENING: usize = 16;
+const OPENING: u64 = 16;
 
 /// Files that planners have and that hold no table or map that can be read: their first bytes, what
 /// they are, and what to do with them.
-const OTHERS: [(&[u8], &str); 11] = [
+const OTHERS: [(&[u8], &str); 22] = [
+    (b"<NUMBER OF", TNTP),
+    (b"<TOTAL OD", TNTP),
+    (b"<FIRST THRU", TNTP),
+    (b"<END OF METADATA", TNTP),
+    (
+        b"\x89HDF\r\n\x1a\n",
+        "an HDF5 file, perhaps an OMX matrix: write its table as CSV with period,from,to,passengers",
+    ),
+    (b"fgb\x03", "a FlatGeobuf file: export GeoJSON from it, in longitude and latitude (WGS 84)"),
+    (b"FEA1", "a Feather file: write it as Parquet or CSV"),
+    (b"CDF\x01", "a NetCDF file: write its table as CSV"),
+    (b"CDF\x02", "a NetCDF file: write its table as CSV"),
+    (b"Obj\x01", "an Avro file: write it as Parquet or CSV"),
+    (b"\x93NUMPY", "a NumPy array: write it as CSV with the names of its columns"),
     (b"\xd0\xcf\x11\xe0", "an Excel workbook: save its sheet as CSV"),
     (b"BZh", "compressed with bzip2: unpack it, or compress it with gzip"),
     (b"\x28\xb5\x2f\xfd", "compressed with Zstandard: unpack it, or compress it with gzip"),
@@ -36,6 +50,57 @@ const OTHERS: [(&[u8], &str); 11] = [
     (b"<", "an XML or HTML document: export CSV or GeoJSON"),
     (b"{\\rtf", "a document of a word processor: save the table as CSV"),
 ];
+
+const TNTP: &str = "a TNTP file: write its trip table as CSV with period,from,to,passengers, and its nodes as CSV with id,latitude,longitude";
+
+/// The name and remedy of JSON that is neither GeoJSON nor a table, by what it begins with and
+/// contains; `None` if the text is no JSON.
+pub(crate) fn other_json(text: &[u8]) -> Option<&'static str> {
+    let text = text.trim_ascii_start();
+    // GeoJSON text sequences (RFC 8142) begin each feature with this.
+    if !matches!(text.first(), Some(b'{' | b'[' | 0x1e)) {
+        return None;
+    }
+    let has = |name: &str| {
+        let name = format!("\"{name}\"");
+        let begin = &text[..text.len().min(LONGEST_HEAD)];
+        begin.windows(name.len()).any(|part| part == name.as_bytes())
+    };
+    let lines = || text.split(|&byte| byte == b'\n').filter(|line| !line.trim_ascii().is_empty());
+    let by_lines = text[0] == 0x1e
+        || lines().count() > 1
+            && lines().take(2).all(|line| line.trim_ascii().starts_with(b"{"))
+            && lines().take(2).all(|line| line.trim_ascii().ends_with(b"}"));
+    Some(match () {
+        () if has("Topology") => "it is TopoJSON: export GeoJSON from it (`topo2geo`)",
+        () if by_lines && (has("Feature") || text[0] == 0x1e) => {
+            "it is newline-delimited GeoJSON, with a feature in each line: write one FeatureCollection (`jq -s '{type:\"FeatureCollection\",features:.}'`)"
+        }
+        () if has("FeatureCollection") || has("Feature") => {
+            "it is GeoJSON, and a table is needed: export CSV"
+        }
+        () if has("station_id") || has("stations") || has("last_updated") => {
+            "it is a GBFS feed: write its stations as CSV with id,latitude,longitude"
+        }
+        () if has("esriGeometryPoint")
+            || has("esriGeometryPolygon")
+            || has("esriGeometryPolyline") =>
+        {
+            "it is Esri JSON: export GeoJSON (f=geojson), in longitude and latitude (WGS 84)"
+        }
+        () if by_lines => {
+            "it is JSON lines, with an object in each line: write it as CSV or Parquet"
+        }
+        () if text[0] == b'[' => "it is a JSON list: write it as CSV or Parquet",
+        () => "it is JSON: write it as CSV, or a map as GeoJSON",
+    })
+}
+
+/// How the messages of [`other_json`] begin that name no other format than a map may have.
+pub(crate) const GENERAL: [&str; 2] = ["it is GeoJSON", "it is JSON:"];
+
+/// Bytes of JSON in which its kind is looked for.
+const LONGEST_HEAD: usize = 4_096;
 
 /// How a file is compressed.
 #[derive(Debug, Clone, Copy)]
@@ -63,54 +128,49 @@ impl Packing {
 }
 
 /// Reads a file whole.
-pub(crate) fn read_whole(path: &Path) -> Result<Vec<u8>, Error> {
-    let origin = path.display().to_string();
-    let bytes = read_at_most(path, LONGEST)?;
+pub(crate) fn read_whole(file: &InputFile<'_>) -> Result<Vec<u8>, Error> {
+    let origin = file.origin();
+    let bytes = at_most(file.content()?, file)?;
     let packing = Packing::of(&bytes, &origin)?;
     if matches!(packing, Packing::None) {
         return Ok(bytes);
     }
     unpack(packing, Cursor::new(bytes), &origin, |reader| {
-        let mut bytes = Vec::new();
-        let read = reader.take(LONGEST + 1).read_to_end(&mut bytes);
-        read.map_err(|cause| cannot_read(path, cause))?;
-        if bytes.len() as u64 > LONGEST {
-            return Err(FormatError::FileTooLarge { limit: LONGEST }.in_file(&origin).into());
-        }
+        let bytes = at_most(reader, file)?;
         Packing::of(&bytes, &origin)?;
         Ok(bytes)
     })
 }
 
+/// All bytes of a reader of a file, which must not be too many.
+fn at_most(reader: impl Read, file: &InputFile<'_>) -> Result<Vec<u8>, Error> {
+    let mut bytes = Vec::new();
+    let read = reader.take(LONGEST + 1).read_to_end(&mut bytes);
+    read.map_err(|cause| file.cannot_read(cause))?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(FormatError::FileTooLarge { limit: LONGEST }.in_file(&file.origin()).into());
+    }
+    Ok(bytes)
+}
+
 /// Calls `read` with the unpacked bytes of a long file. `meter` wraps the file and reports how far
 /// it has been read.
 pub(crate) fn read_through<F, T>(
-    path: &Path,
+    file: &InputFile<'_>,
     meter: impl FnOnce(File) -> F,
     read: impl FnOnce(&mut (dyn Read + Send)) -> Result<T, Error>,
 ) -> Result<T, Error>
 where
     F: Read + Seek + Send,
 {
-    let origin = path.display().to_string();
-    let opening = opening(path)?;
-    let packing = Packing::of(&opening, &origin)?;
-    let file = File::open(path).map_err(|cause| cannot_read(path, cause))?;
-    unpack(packing, meter(file), &origin, read)
+    let origin = file.origin();
+    let packing = Packing::of(&opening(file)?, &origin)?;
+    unpack(packing, meter(file.content()?), &origin, read)
 }
 
-/// The first bytes of a file.
-pub(crate) fn opening(path: &Path) -> Result<Vec<u8>, Error> {
-    let mut opening = Vec::new();
-    let file = File::open(path).map_err(|cause| cannot_read(path, cause))?;
-    match file.take(OPENING as u64).read_to_end(&mut opening) {
-        Err(cause) if cause.kind() != ErrorKind::UnexpectedEof => Err(cannot_read(path, cause)),
-        _ => Ok(opening),
-    }
-}
-
-pub(crate) fn cannot_read(path: &Path, cause: std::io::Error) -> Error {
-    CoreError::CannotRead { origin: path.display().to_string(), cause }.into()
+/// The first bytes of a file, by which it is recognised.
+pub(crate) fn opening(file: &InputFile<'_>) -> Result<Vec<u8>, Error> {
+    file.opening(OPENING)
 }
 
 fn unpack<T>(

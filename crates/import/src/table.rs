@@ -1,32 +1,63 @@
 //! Small tables, CSV or Parquet, read whole and row by row. Trip records, which may be much longer,
 //! have separate readers.
 
-use std::path::Path;
-
 use bytes::Bytes;
 use csv::ByteRecord;
 
 use crate::cell::Cell;
 use crate::header::{Header, Named};
+use crate::input_file::InputFile;
 use crate::parquet_file::{self, Wanted};
 use crate::row::{Column, Positions, Row};
-use crate::source::read_whole;
+use crate::source::{other_json, read_whole};
+use crate::splitting::UnreadColumns;
 use crate::{Error, Warning};
 
 /// Calls `each` with every row of a table. Columns may have any order, and others are ignored;
 /// `warnings` has those of them that look like one that is read.
 pub(crate) fn rows(
-    path: &Path,
+    file: &InputFile<'_>,
     columns: &[Column],
     warnings: &mut Vec<Warning>,
     mut each: impl FnMut(&Row<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let origin = path.display().to_string();
-    let bytes = read_whole(path)?;
-    if parquet_file::is_parquet(path, &bytes) {
+    let origin = file.origin();
+    let bytes = read_whole(file)?;
+    if parquet_file::is_parquet(file, &bytes) {
         return parquet_rows(bytes.into(), &origin, columns, warnings, &mut each);
     }
+    csv_rows(text(&bytes, "CSV", &origin)?, &origin, (columns, &[]), warnings, &mut each)
+}
+
+/// Calls `each` with every row of a CSV table that has, instead of several rows, the columns at
+/// some positions, whose values are in [`Row::wide`].
+pub(crate) fn wide_rows(
+    file: &InputFile<'_>,
+    columns: (&[Column], &[usize]),
+    warnings: &mut Vec<Warning>,
+    mut each: impl FnMut(&Row<'_>) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let (origin, bytes) = (file.origin(), read_whole(file)?);
     csv_rows(text(&bytes, "CSV", &origin)?, &origin, columns, warnings, &mut each)
+}
+
+/// The names of the columns of a CSV table; none if the table is Parquet.
+pub(crate) fn csv_names(file: &InputFile<'_>) -> Result<Vec<String>, Error> {
+    let (origin, bytes) = (file.origin(), read_whole(file)?);
+    if parquet_file::is_parquet(file, &bytes) {
+        return Ok(Vec::new());
+    }
+    let text = text(&bytes, "CSV", &origin)?;
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text);
+    let mut record = ByteRecord::new();
+    // A header that cannot be read is an error of the rows.
+    let _ = reader.read_byte_record(&mut record);
+    Ok(names(&record))
+}
+
+/// The names of the columns in the header of a CSV table.
+fn names(header: &ByteRecord) -> Vec<String> {
+    header.iter().map(|name| String::from_utf8_lossy(name.trim_ascii()).into_owned()).collect()
 }
 
 /// The text of a file that is not Parquet, without the byte order mark at its start. It has
@@ -43,6 +74,12 @@ pub(crate) fn text<'a>(
     }
     if let [0xff, 0xfe, ..] | [0xfe, 0xff, ..] | [0, _, ..] | [_, 0, ..] = text {
         let problem = "its text is encoded in UTF-16; save it as UTF-8".to_owned();
+        return Err(Error::NotParsed { origin: origin.to_owned(), kind, problem });
+    }
+    if kind == "CSV"
+        && let Some(problem) = other_json(text)
+    {
+        let problem = problem.to_owned();
         return Err(Error::NotParsed { origin: origin.to_owned(), kind, problem });
     }
     if let Err(error) = str::from_utf8(text) {
@@ -69,7 +106,7 @@ pub(crate) fn without_mark(text: &[u8]) -> &[u8] {
 fn csv_rows(
     csv: &[u8],
     origin: &str,
-    columns: &[Column],
+    (columns, wide): (&[Column], &[usize]),
     warnings: &mut Vec<Warning>,
     each: &mut dyn FnMut(&Row<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
@@ -81,9 +118,9 @@ fn csv_rows(
         reader.read_byte_record(record).map_err(|error| wrong(error.to_string()))
     };
     next(&mut record)?;
-    let names: Vec<String> =
-        record.iter().map(|name| String::from_utf8_lossy(name.trim_ascii()).into_owned()).collect();
+    let names = names(&record);
     let found = Header { origin, names: &names, of: Named::Columns }.find(columns, warnings)?;
+    let mut unread = UnreadColumns::of(&names, (&found, wide), columns);
     while next(&mut record)? {
         // Spreadsheets write rows of empty cells below a table.
         if record.iter().all(|cell| cell.trim_ascii().is_empty()) {
@@ -92,6 +129,7 @@ fn csv_rows(
         let value =
             |at: &Option<usize>| at.and_then(|at| record.get(at)).map_or(Cell::Missing, Cell::text);
         let cells: Vec<Cell<'_>> = found.iter().map(value).collect();
+        let wide: Vec<Cell<'_>> = wide.iter().map(|at| value(&Some(*at))).collect();
         let begin = record.position().map_or(0, csv::Position::byte);
         let row = Row {
             origin,
@@ -99,6 +137,7 @@ fn csv_rows(
             position: usize::try_from(begin).unwrap_or(usize::MAX),
             columns,
             cells: &cells,
+            wide: &wide,
         };
         if record.iter().skip(names.len()).any(|cell| !cell.trim_ascii().is_empty()) {
             return Err(wrong(format!(
@@ -109,8 +148,10 @@ fn csv_rows(
                 names.len(),
             )));
         }
-        each(&row)?;
+        unread.add(|at| record.get(at));
+        each(&row).map_err(|error| unread.explained(error))?;
     }
+    warnings.extend(unread.warnings(origin));
     Ok(())
 }
 
@@ -130,7 +171,7 @@ fn parquet_rows(
     for group in 0..file.groups() {
         file.rows(group, &wanted, &|| Ok(()), &mut |cells| {
             position += 1;
-            each(&Row { origin, positions: Positions::Rows, position, columns, cells })
+            each(&Row { origin, positions: Positions::Rows, position, columns, cells, wide: &[] })
         })?;
     }
     Ok(())

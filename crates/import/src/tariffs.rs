@@ -1,8 +1,8 @@
 //! Fares and costs by pair from a planner's table.
 
 use std::collections::HashMap;
-use std::path::Path;
 
+use crate::input_file::InputFile;
 use crate::row::{Column, one_of, required};
 use crate::table;
 use crate::vertiports::Vertiports;
@@ -33,13 +33,13 @@ pub(crate) struct PairTariff {
 
 /// Reads the table of fares and passenger costs.
 pub(crate) fn pairs(
-    path: &Path,
+    file: &InputFile<'_>,
     vertiports: &Vertiports,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<PairTariff>, Error> {
     let mut pairs = Vec::new();
     let mut known: HashMap<(usize, usize), usize> = HashMap::new();
-    table::rows(path, &PAIR_COLUMNS, warnings, |row| {
+    table::rows(file, &PAIR_COLUMNS, warnings, |row| {
         let ends = row.pair(FROM, TO, vertiports)?;
         if let Some(before) = known.insert(ends, row.position) {
             let (from, to) = (&vertiports.list[ends.0].id, &vertiports.list[ends.1].id);
@@ -54,7 +54,7 @@ pub(crate) fn pairs(
         Ok(())
     })?;
     if pairs.is_empty() {
-        let origin = path.display().to_string();
+        let origin = file.origin();
         return Err(Error::Nothing { origin, what: "fares or costs" });
     }
     Ok(pairs)

@@ -14,7 +14,7 @@ mod account;
 mod blocks;
 mod columns;
 mod groups;
-mod nearby;
+pub(crate) mod nearby;
 mod signs;
 mod suspicions;
 mod tally;
@@ -30,8 +30,9 @@ use vertifleet_core::{Operations, Stop};
 
 use crate::date_time::{Date, Weekdays};
 use crate::hourly_demand::HourlyDemand;
+use crate::input_file::InputFile;
 use crate::parquet_file;
-use crate::source::{cannot_read, opening};
+use crate::source::{self, opening};
 use crate::trip_times::{TimeFormat, TripTimes};
 use crate::vertiports::Vertiports;
 use crate::zones::Zones;
@@ -139,9 +140,11 @@ pub(crate) fn demand(
 ) -> Result<(HourlyDemand, TripAccount), Error> {
     trips.check()?;
     let zones = match trips.zones {
-        Some(path) => Zones::read(path, warnings)?,
+        Some(path) => Zones::read(&InputFile::open(path, source::LONGEST, stop)?, warnings)?,
         None => Zones::default(),
     };
+    let files = trips.files.iter().map(|path| InputFile::open(path, u64::MAX, stop));
+    let files: Vec<InputFile<'_>> = files.collect::<Result<_, _>>()?;
     let converts = time_zone.is_some();
     let places = vertiports.list.iter().map(|vertiport| vertiport.place).collect();
     let nearby = Nearby::new(places, trips.radius_mi);
@@ -154,11 +157,15 @@ pub(crate) fn demand(
         weekdays: trips.weekdays,
         dates: trips.first_date..=trips.last_date,
     };
-    let reading = Reading::new(trips, &zones, &rules, stop, progress)?;
+    let reading = Reading::new(trips, &files, &zones, &rules, stop, progress)?;
     let tally = reading.read()?;
     let mut account = tally.account(trips);
-    account.first_dropped = first_dropped(&account, &tally, trips)?;
-    let found = suspicions::warnings(trips, &tally, &account, converts, &reading.overlooked());
+    account.first_dropped = first_dropped(&account, &tally, &files)?;
+    let mut found =
+        suspicions::warnings((trips, &files), &tally, &account, converts, &reading.overlooked());
+    if let Some(path) = trips.zones {
+        found.extend(zones.exchanged(path, vertiports));
+    }
     if account.kept == 0 {
         let mut reasons = account.to_string();
         for warning in &found {
@@ -187,18 +194,18 @@ pub(crate) fn demand(
 fn first_dropped(
     account: &TripAccount,
     tally: &tally::Tally,
-    trips: &Trips<'_>,
+    files: &[InputFile<'_>],
 ) -> Result<Vec<DroppedRow>, Error> {
     let reasons = account.dropped().into_iter().zip(&tally.signs().first_dropped);
     let row = |((reason, _), first): ((&'static str, u64), &Option<signs::FirstRow>)| {
         let first = first.as_ref()?;
-        let path = trips.files[first.position.file];
-        let place = if parquet_file::is_parquet(path, &opening(path).ok()?) {
+        let file = &files[first.position.file];
+        let place = if parquet_file::is_parquet(file, &opening(file).ok()?) {
             Ok(format!("row {}", first.position.at + 1))
         } else {
-            blocks::line_number(path, first.position.at).map(|line| format!("line {line}"))
+            blocks::line_number(file, first.position.at).map(|line| format!("line {line}"))
         };
-        let file = crate::file_name(path);
+        let file = crate::file_name(file.path());
         Some(place.map(|place| DroppedRow { reason, file, place, row: first.text.clone() }))
     };
     reasons.filter_map(row).collect()
@@ -217,6 +224,7 @@ fn rounded(passengers: f64) -> f64 {
 /// Everything that the readers of all files share.
 struct Reading<'a> {
     trips: &'a Trips<'a>,
+    files: &'a [InputFile<'a>],
     zones: &'a Zones,
     tallies: Tallies<'a>,
     stop: &'a Stop,
@@ -242,18 +250,19 @@ impl Progress<'_> {
 impl<'a> Reading<'a> {
     fn new(
         trips: &'a Trips<'a>,
+        files: &'a [InputFile<'a>],
         zones: &'a Zones,
         rules: &'a Rules,
         stop: &'a Stop,
         report: &'a (dyn Fn(f64) + Sync),
     ) -> Result<Self, Error> {
         let mut all = 0;
-        for path in &trips.files {
-            all += std::fs::metadata(path).map_err(|cause| cannot_read(path, cause))?.len();
+        for file in files {
+            all += file.length()?;
         }
         let progress = Progress { done: AtomicU64::new(0), all, report };
         let overlooked = Mutex::default();
-        Ok(Self { trips, zones, tallies: Tallies::new(rules), stop, progress, overlooked })
+        Ok(Self { trips, files, zones, tallies: Tallies::new(rules), stop, progress, overlooked })
     }
 
     /// Notes that a column of a file is not read and may hold the passengers.
@@ -280,11 +289,11 @@ impl<'a> Reading<'a> {
     /// Reads the CSV files one after the other, and then the row groups of all Parquet files.
     fn read(&self) -> Result<tally::Tally, Error> {
         let mut parquet = Vec::new();
-        for (number, path) in self.trips.files.iter().enumerate() {
-            if parquet_file::is_parquet(path, &opening(path)?) {
-                parquet.push((number, *path));
+        for (number, file) in self.files.iter().enumerate() {
+            if parquet_file::is_parquet(file, &opening(file)?) {
+                parquet.push((number, file));
             } else {
-                blocks::read(path, number, self)?;
+                blocks::read(file, number, self)?;
             }
         }
         groups::read(&parquet, self)?;

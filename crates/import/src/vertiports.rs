@@ -6,6 +6,7 @@ use std::path::Path;
 use crate::cell::printable;
 use crate::features;
 use crate::globe::Place;
+use crate::input_file::InputFile;
 use crate::row::{Column, Row, optional, required};
 use crate::table;
 use crate::{Error, Warning};
@@ -66,12 +67,12 @@ pub(crate) struct Vertiports {
 
 impl Vertiports {
     /// Reads a CSV table or a GeoJSON file of points.
-    pub(crate) fn read(path: &Path, warnings: &mut Vec<Warning>) -> Result<Self, Error> {
+    pub(crate) fn read(file: &InputFile<'_>, warnings: &mut Vec<Warning>) -> Result<Self, Error> {
         let mut vertiports = Self::default();
         // The position of each vertiport in the file.
         let mut places = Vec::new();
-        if features::is_geojson(path)? {
-            features::shapes(path, &COLUMNS[..=NAME], warnings, |shape| {
+        if features::is_geojson(file)? {
+            features::shapes(file, &COLUMNS[..=NAME], warnings, |shape| {
                 let place = shape.point()?;
                 if place.latitude.abs() > MOST_LATITUDE {
                     return Err(shape.wrong("within 89 degrees of the equator"));
@@ -79,13 +80,13 @@ impl Vertiports {
                 vertiports.add(&shape.row, place, &mut places)
             })?;
         } else {
-            table::rows(path, &COLUMNS, warnings, |row| {
+            table::rows(file, &COLUMNS, warnings, |row| {
                 let place = row.degrees(LATITUDE, LONGITUDE, MOST_LATITUDE)?;
                 vertiports.add(row, place, &mut places)
             })?;
         }
         if vertiports.list.is_empty() {
-            let origin = path.display().to_string();
+            let origin = file.origin();
             return Err(Error::Nothing { origin, what: "vertiports" });
         }
         Ok(vertiports)

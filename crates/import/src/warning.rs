@@ -9,8 +9,9 @@ use vertifleet_core::Code;
 pub enum Warning {
     /// V718 strange demand in data of your own (warning). A demand that is imported has no
     /// passengers at all; or one of its periods lasts longer than others, as a period lasts until
-    /// the next one that the table has, or until operations end; or passengers want to fly outside
-    /// of the hours of operation. This is a warning: the network is made all the same.
+    /// the next one that the table has, or until operations end; or the table states another end of
+    /// a period than the next one's begin; or passengers want to fly outside of the hours of
+    /// operation. This is a warning: the network is made all the same.
     ///
     /// Fix: look at the rows. Give each hour a row, with 0 passengers where there are none. Change
     /// `[operations]` in the new file if your vertiports are open at other times than those of the
@@ -47,10 +48,12 @@ pub enum Warning {
     },
 
     /// V740 column that is not read (warning). A file does not have a column or property that is
-    /// read, and has one of a similar name that is not read, such as `charger` for `chargers`. This
-    /// is a warning: the network is made all the same.
+    /// read, and has one of a similar name that is not read, such as `charger` for `chargers`, or
+    /// one in another unit. Or a table has a column that is not read and by which its rows are
+    /// split, such as `scenario` or `month`, with several values. This is a warning: the network is
+    /// made all the same.
     ///
-    /// Fix: rename it if it means that.
+    /// Fix: rename it if it means that, convert its numbers, or keep the rows of one value.
     Columns {
         /// The file.
         origin: String,
@@ -60,10 +63,11 @@ pub enum Warning {
 
     /// V741 strange trip records (warning). Trip records are probably not what they seem. Their
     /// times have a time zone and are not converted, or cannot be read; dates have hardly any
-    /// records and count as days all the same; days between the dates that were given have none;
-    /// two files are the same; latitude and longitude are exchanged, or positions are in metres; a
-    /// column that seems to hold the passengers is not read. This is a warning: the network is made
-    /// all the same.
+    /// records, or are far from the others, and count as days all the same; days and months are
+    /// exchanged; days between the dates that were given have none; two files are the same;
+    /// latitude and longitude are exchanged, in the records or the zones, or positions are in
+    /// metres; a column that seems to hold the passengers is not read. This is a warning: the
+    /// network is made all the same.
     ///
     /// Fix: the message names the flag or the file to change.
     Trips {

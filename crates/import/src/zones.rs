@@ -7,9 +7,11 @@ use std::path::Path;
 use crate::cell::{Cell, composed};
 use crate::features::{self, Shape};
 use crate::globe::{Area, Place};
+use crate::input_file::InputFile;
 use crate::row::{Column, Row, required};
 use crate::table;
-use crate::vertiports::{LATITUDES, LONGITUDES};
+use crate::trips::nearby::Nearby;
+use crate::vertiports::{LATITUDES, LONGITUDES, Vertiports};
 use crate::{Error, Warning};
 
 /// Files of New York's taxi zones have a `zone`, which is a name, next to the `LocationID` that
@@ -17,6 +19,8 @@ use crate::{Error, Warning};
 const ZONE: &[&str] = &["LocationID", "location_id", "zone_id", "zone"];
 const COLUMNS: [Column; 3] = [required(ZONE), required(LATITUDES), required(LONGITUDES)];
 const PROPERTIES: [Column; 1] = [required(ZONE)];
+/// Zones that are nearer to a vertiport than this are of the same region, miles.
+const REGION_MI: f64 = 100.0;
 
 /// Zones with the places of their middles. Ids that are whole numbers are compared as numbers,
 /// since tables write 132 also as `132.0`.
@@ -36,19 +40,19 @@ struct Draft {
 
 impl Zones {
     /// Reads a CSV table, or a GeoJSON file of areas or points.
-    pub(crate) fn read(path: &Path, warnings: &mut Vec<Warning>) -> Result<Self, Error> {
+    pub(crate) fn read(file: &InputFile<'_>, warnings: &mut Vec<Warning>) -> Result<Self, Error> {
         let mut zones = Self::default();
         let mut drafts: Vec<Draft> = Vec::new();
-        if features::is_geojson(path)? {
-            features::shapes(path, &PROPERTIES, warnings, |shape| {
+        if features::is_geojson(file)? {
+            features::shapes(file, &PROPERTIES, warnings, |shape| {
                 zones.add_shape(shape, &mut drafts)
             })?;
         } else {
-            table::rows(path, &COLUMNS, warnings, |row| {
+            table::rows(file, &COLUMNS, warnings, |row| {
                 zones.add_point(row, row.degrees(1, 2, 90.0)?, &mut drafts)
             })?;
         }
-        let origin = || path.display().to_string();
+        let origin = || file.origin();
         if drafts.is_empty() {
             return Err(Error::Nothing { origin: origin(), what: "zones" });
         }
@@ -62,6 +66,24 @@ impl Zones {
             })?);
         }
         Ok(zones)
+    }
+
+    /// The warning that more zones would be in the region of the vertiports if latitude and
+    /// longitude were exchanged than are as they stand.
+    pub(crate) fn exchanged(&self, path: &Path, vertiports: &Vertiports) -> Option<Warning> {
+        let places = vertiports.list.iter().map(|vertiport| vertiport.place).collect();
+        let region = Nearby::new(places, REGION_MI);
+        let within = |place: &Place| region.of(*place).is_some();
+        let other_way = self.middles.iter().filter_map(|at| Place::new(at.longitude, at.latitude));
+        let exchanged = other_way.filter(within).count();
+        let near = self.middles.iter().filter(|place| within(place)).count();
+        (exchanged > near).then(|| Warning::Trips {
+            origin: path.display().to_string(),
+            problem: format!(
+                "{exchanged} zones would be within {REGION_MI} miles of a vertiport if their latitudes and longitudes were \
+                 exchanged, and {near} are as they stand: in GeoJSON the longitude comes first"
+            ),
+        })
     }
 
     /// The position of the zone that a cell names.

@@ -7,7 +7,6 @@
 
 use std::fs::File;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
-use std::path::Path;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread;
 
@@ -20,8 +19,9 @@ use super::tally::{End, Record};
 use super::{Progress, Reading};
 use crate::Error;
 use crate::cell::Cell;
+use crate::input_file::InputFile;
 use crate::parquet_file;
-use crate::source::{cannot_read, read_through};
+use crate::source::read_through;
 use crate::table::{self, without_mark, wrong_encoding};
 use crate::zones::Zones;
 
@@ -40,15 +40,19 @@ struct Block {
 }
 
 /// Adds all records of a file; `number` is its position among the files.
-pub(super) fn read(path: &Path, number: usize, reading: &Reading<'_>) -> Result<(), Error> {
+pub(super) fn read(
+    input: &InputFile<'_>,
+    number: usize,
+    reading: &Reading<'_>,
+) -> Result<(), Error> {
     let meter = |file| Metered { file, progress: &reading.progress };
-    read_through(path, meter, |file| {
-        let origin = path.display().to_string();
-        let mut source = Source { file, origin: &origin, path, rest: Vec::new(), begin: 0 };
+    read_through(input, meter, |file| {
+        let origin = input.origin();
+        let mut source = Source { file, input, rest: Vec::new(), begin: 0 };
         let Some(mut first) = source.next_block()? else {
             return Err(Error::Nothing { origin, what: "rows, as it is empty" });
         };
-        let row = RowReader::of_header(&mut first, path, number, reading)?;
+        let row = RowReader::of_header(&mut first, input, number, reading)?;
         let waiting = rayon::current_num_threads().min(MOST_WAITING);
         thread::scope(|scope| {
             let (sender, blocks) = sync_channel(waiting);
@@ -62,15 +66,15 @@ pub(super) fn read(path: &Path, number: usize, reading: &Reading<'_>) -> Result<
 }
 
 /// The number of the line that begins at a byte of a file.
-pub(super) fn line_number(path: &Path, begin: u64) -> Result<u64, Error> {
+pub(super) fn line_number(input: &InputFile<'_>, begin: u64) -> Result<u64, Error> {
     read_through(
-        path,
+        input,
         |file| file,
         |file| {
             let mut before = file.take(begin);
             let (mut line, mut text) = (1, vec![0; 64 << 10]);
             loop {
-                match before.read(&mut text).map_err(|cause| cannot_read(path, cause))? {
+                match before.read(&mut text).map_err(|cause| input.cannot_read(cause))? {
                     0 => return Ok(line),
                     read => line += count(&text[..read], b'\n') as u64,
                 }
@@ -89,11 +93,10 @@ fn count(text: &[u8], wanted: u8) -> usize {
 
 /// The error that names the first line of a file that is not UTF-8. In which line a block begins is
 /// not known where blocks are read side by side, so the file is read once more.
-fn not_text(path: &Path) -> Error {
-    let origin = path.display().to_string();
+fn not_text(input: &InputFile<'_>) -> Error {
     let mut line = 1;
     let found = read_through(
-        path,
+        input,
         |file| file,
         |file| {
             let mut text = Vec::new();
@@ -101,7 +104,7 @@ fn not_text(path: &Path) -> Error {
                 let begin = text.len();
                 text.resize(begin + BLOCK, 0);
                 let read =
-                    file.read(&mut text[begin..]).map_err(|cause| cannot_read(path, cause))?;
+                    file.read(&mut text[begin..]).map_err(|cause| input.cannot_read(cause))?;
                 text.truncate(begin + read);
                 let (valid, wrong) = match str::from_utf8(&text) {
                     Ok(_) => (text.len(), None),
@@ -118,7 +121,7 @@ fn not_text(path: &Path) -> Error {
             }
         },
     );
-    found.map_or_else(|error| error, |byte| wrong_encoding(&origin, "CSV", line, byte))
+    found.map_or_else(|error| error, |byte| wrong_encoding(&input.origin(), "CSV", line, byte))
 }
 
 /// A file that reports how far it has been read.
@@ -144,8 +147,7 @@ impl Seek for Metered<'_> {
 /// A file that is read block by block.
 struct Source<'a> {
     file: &'a mut (dyn Read + Send),
-    origin: &'a str,
-    path: &'a Path,
+    input: &'a InputFile<'a>,
     /// The begin of a line that the next block completes.
     rest: Vec<u8>,
     /// Position of the first byte of `rest` in the file.
@@ -182,7 +184,7 @@ impl Source<'_> {
         let read = loop {
             match limited.read_to_end(&mut lines) {
                 Err(cause) if cause.kind() == ErrorKind::Interrupted => {}
-                Err(cause) => return Err(cannot_read(self.path, cause)),
+                Err(cause) => return Err(self.input.cannot_read(cause)),
                 Ok(read) => break read,
             }
         };
@@ -191,7 +193,7 @@ impl Source<'_> {
             let end =
                 lines.iter().rposition(|&byte| byte == b'\n').map_or(0, |newline| newline + 1);
             if lines.len() - end > LONGEST_LINE {
-                return Err(too_long(self.origin, begin + end as u64));
+                return Err(too_long(&self.input.origin(), begin + end as u64));
             }
             self.rest = lines.split_off(end);
         }
@@ -215,7 +217,7 @@ struct RowReader<'a> {
     columns: usize,
     layout: Layout,
     zones: &'a Zones,
-    path: &'a Path,
+    input: &'a InputFile<'a>,
     /// The number of the file.
     file: usize,
 }
@@ -224,11 +226,11 @@ impl<'a> RowReader<'a> {
     /// Takes the header from the first block.
     fn of_header(
         block: &mut Block,
-        path: &'a Path,
+        input: &'a InputFile<'a>,
         file: usize,
         reading: &'a Reading<'_>,
     ) -> Result<Self, Error> {
-        let origin = &path.display().to_string();
+        let origin = &input.origin();
         if block.lines.starts_with(parquet_file::MAGIC) {
             let problem = "it is a Parquet file within a compressed one: unpack it".to_owned();
             return Err(Error::NotParsed { origin: origin.to_owned(), kind: "CSV", problem });
@@ -253,13 +255,13 @@ impl<'a> RowReader<'a> {
         let last = columns.iter().flatten().max().map_or(0, |last| last + 1);
         let slot = |at| columns.iter().position(|column| *column == Some(at));
         let slots = (0..last).map(slot).collect();
-        Ok(Self { slots, columns: names.len(), layout, zones, path, file })
+        Ok(Self { slots, columns: names.len(), layout, zones, input, file })
     }
 
     /// Adds all records of a block.
     fn add_block(&self, block: &Block, origin: &str, reading: &Reading<'_>) -> Result<(), Error> {
         if str::from_utf8(&block.lines).is_err() {
-            return Err(not_text(self.path));
+            return Err(not_text(self.input));
         }
         reading.tallies.with(|tally, rules| {
             let mut begin = block.begin;

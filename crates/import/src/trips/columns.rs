@@ -4,8 +4,8 @@ use crate::Error;
 use crate::header::{Header, Missing, Named};
 
 /// The names of the columns of trip records. A name that is absent is guessed from names that are
-/// in use, such as those of New York's taxi records and of bicycles for hire; capitals and small
-/// letters are the same.
+/// in use, such as those of the taxi records of New York and Chicago and of bicycles for hire;
+/// capitals and small letters are the same, and blanks and underscores too.
 ///
 /// Places are read from the four columns of coordinates if these are there, and else from the two
 /// columns of zones. If only columns of zones are named, places are read from these. Where no
@@ -126,15 +126,21 @@ const TIME: &[&str] = &[
     "trip_pickup_datetime",
     "pickup_time",
     "started_at",
+    "trip_start_timestamp",
 ];
 const PASSENGERS: &[&str] = &["passenger_count", "passengers"];
-const PICKUP_LATITUDE: &[&str] = &["pickup_latitude", "start_lat", "start_latitude"];
+const PICKUP_LATITUDE: &[&str] =
+    &["pickup_latitude", "start_lat", "start_latitude", "pickup_centroid_latitude"];
 const PICKUP_LONGITUDE: &[&str] =
-    &["pickup_longitude", "start_lon", "start_lng", "start_longitude"];
-const DROPOFF_LATITUDE: &[&str] = &["dropoff_latitude", "end_lat", "end_latitude"];
-const DROPOFF_LONGITUDE: &[&str] = &["dropoff_longitude", "end_lon", "end_lng", "end_longitude"];
-const PICKUP_ZONE: &[&str] = &["PULocationID", "pickup_zone", "pickup_location_id"];
-const DROPOFF_ZONE: &[&str] = &["DOLocationID", "dropoff_zone", "dropoff_location_id"];
+    &["pickup_longitude", "start_lon", "start_lng", "start_longitude", "pickup_centroid_longitude"];
+const DROPOFF_LATITUDE: &[&str] =
+    &["dropoff_latitude", "end_lat", "end_latitude", "dropoff_centroid_latitude"];
+const DROPOFF_LONGITUDE: &[&str] =
+    &["dropoff_longitude", "end_lon", "end_lng", "end_longitude", "dropoff_centroid_longitude"];
+const PICKUP_ZONE: &[&str] =
+    &["PULocationID", "pickup_zone", "pickup_location_id", "pickup_community_area"];
+const DROPOFF_ZONE: &[&str] =
+    &["DOLocationID", "dropoff_zone", "dropoff_location_id", "dropoff_community_area"];
 
 /// Where the values of a record stand among the columns of one file.
 #[derive(Debug, Clone, Copy)]

@@ -1,9 +1,7 @@
 //! Trip records of Parquet files, row group by row group. The row groups of all files are read by
 //! all threads.
 
-use std::fs::File;
 use std::ops::Range;
-use std::path::Path;
 
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
@@ -12,8 +10,8 @@ use super::blocks::{record, slot_columns};
 use super::columns::Layout;
 use super::signs::{Position, RowText};
 use crate::Error;
+use crate::input_file::InputFile;
 use crate::parquet_file::{ParquetFile, Wanted};
-use crate::source::cannot_read;
 use crate::zones::Zones;
 
 /// Rows after which a reader reports how far it has come.
@@ -25,9 +23,9 @@ const MOST_PARTS: usize = 64;
 
 /// Consecutive row groups of a file.
 struct Part<'a> {
-    path: &'a Path,
+    file: &'a InputFile<'a>,
     /// The number of the file.
-    file: usize,
+    number: usize,
     groups: Range<usize>,
     /// Number of rows in the groups before.
     rows_before: u64,
@@ -38,11 +36,11 @@ struct Part<'a> {
 }
 
 /// Adds all records of all files, each with its number.
-pub(super) fn read(files: &[(usize, &Path)], reading: &Reading<'_>) -> Result<(), Error> {
+pub(super) fn read(files: &[(usize, &InputFile<'_>)], reading: &Reading<'_>) -> Result<(), Error> {
     let mut parts = Vec::new();
-    for &(number, path) in files {
-        let (file, length) = open(path)?;
-        let origin = path.display().to_string();
+    for &(number, input) in files {
+        let (file, length) = open(input)?;
+        let origin = input.origin();
         let layout = Layout::find(&reading.trips.columns, file.columns(), &origin)?;
         let zones = reading.zones_for(&layout, &origin)?;
         if let Some(column) = layout.overlooked {
@@ -59,8 +57,8 @@ pub(super) fn read(files: &[(usize, &Path)], reading: &Reading<'_>) -> Result<()
             let groups = begin..(begin + groups_a_part).min(file.groups());
             let rows = rows_of(groups.clone());
             parts.push(Part {
-                path,
-                file: number,
+                file: input,
+                number,
                 groups,
                 rows_before,
                 layout,
@@ -75,11 +73,8 @@ pub(super) fn read(files: &[(usize, &Path)], reading: &Reading<'_>) -> Result<()
 
 /// Opens a file and returns its length too. Each thread opens its own files, because handles of one
 /// opening share the position at which they read.
-fn open(path: &Path) -> Result<(ParquetFile, u64), Error> {
-    let cannot = |cause| cannot_read(path, cause);
-    let file = File::open(path).map_err(cannot)?;
-    let length = file.metadata().map_err(cannot)?.len();
-    Ok((ParquetFile::open(file, &path.display().to_string())?, length))
+fn open(file: &InputFile<'_>) -> Result<(ParquetFile, u64), Error> {
+    Ok((ParquetFile::open(file.content()?, &file.origin())?, file.length()?))
 }
 
 fn wanted(layout: &Layout, reading: &Reading<'_>) -> [Option<Wanted>; 6] {
@@ -93,7 +88,7 @@ fn wanted(layout: &Layout, reading: &Reading<'_>) -> [Option<Wanted>; 6] {
 
 impl Part<'_> {
     fn add(&self, reading: &Reading<'_>) -> Result<(), Error> {
-        let (file, _) = open(self.path)?;
+        let (file, _) = open(self.file)?;
         reading.tallies.with(|tally, rules| {
             let mut rows = 0_u64;
             let pause = || Ok(reading.stop.check()?);
@@ -101,7 +96,7 @@ impl Part<'_> {
             for group in self.groups.clone() {
                 file.rows(group, &wanted, &pause, &mut |cells| {
                     let at = self.rows_before.saturating_add(rows);
-                    let position = Position { file: self.file, at };
+                    let position = Position { file: self.number, at };
                     let row = (position, RowText::Cells(cells));
                     tally.add(&record(cells, &self.layout, self.zones, row), rules);
                     rows += 1;

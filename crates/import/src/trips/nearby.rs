@@ -10,14 +10,14 @@ use crate::globe::Place;
 
 /// The vertiport near a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Near {
+pub(crate) struct Near {
     /// Its position in file order.
     pub(super) vertiport: usize,
     pub(super) distance_mi: f64,
 }
 
 /// Vertiports in the order of their latitudes.
-pub(super) struct Nearby {
+pub(crate) struct Nearby {
     boxes: Vec<Box>,
     radius_mi: f64,
     /// Half the height of every box, degrees.
@@ -34,7 +34,7 @@ struct Box {
 }
 
 impl Nearby {
-    pub(super) fn new(places: Vec<Place>, radius_mi: f64) -> Self {
+    pub(crate) fn new(places: Vec<Place>, radius_mi: f64) -> Self {
         // Boxes are a little larger than need be, so that no rounding leaves out a place at the
         // edge of the circle.
         const ROOM: f64 = 1.0 + 1e-9;
@@ -62,7 +62,7 @@ impl Nearby {
     /// The nearest vertiport within the radius of a place; of two that are equally near, the first
     /// in file order.
     #[inline]
-    pub(super) fn of(&self, place: Place) -> Option<Near> {
+    pub(crate) fn of(&self, place: Place) -> Option<Near> {
         let lowest = place.latitude - self.half_height;
         let highest = place.latitude + self.half_height;
         let first = self.boxes.partition_point(|other| other.place.latitude < lowest);

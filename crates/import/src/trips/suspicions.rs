@@ -1,27 +1,33 @@
 //! The warnings of an import of trips: signs that the records are not what they seem.
 
-use std::collections::BTreeMap;
-use std::fs::File;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
-use std::path::Path;
 
 use super::signs::Signs;
 use super::tally::Tally;
 use super::{TripAccount, Trips};
-use crate::Warning;
+use crate::cell::Cell;
 use crate::date_time::Date;
-use crate::trip_times::FORMS;
+use crate::input_file::InputFile;
+use crate::trip_times::{FORMS, TimeFormat, TripTimes};
+use crate::{Error, Warning};
 
 /// A date with fewer records than this share of the usual number is an error of a clock rather than
 /// a day.
-const STRAY_SHARE: f64 = 0.01;
+const STRAY_SHARE: f64 = 0.05;
+/// Days without records that separate groups of dates.
+const GAP_DAYS: i32 = 7;
+/// A gap after which dates are of another year, however many records they have.
+const YEAR_DAYS: i32 = 365;
+/// A group of dates with fewer records a day than this share of the usual number is small.
+const FEW_SHARE: f64 = 0.2;
 /// Bytes that are compared at once.
 const BLOCK: usize = 64 << 10;
 
 /// The warnings of these records. `converts` is whether instants are converted to a time zone, and
 /// `overlooked` are columns that are not read and may hold the passengers.
 pub(super) fn warnings(
-    trips: &Trips<'_>,
+    (trips, files): (&Trips<'_>, &[InputFile<'_>]),
     tally: &Tally,
     account: &TripAccount,
     converts: bool,
@@ -38,40 +44,42 @@ pub(super) fn warnings(
     });
     let signs = tally.signs();
     let problems = [
-        twice(&trips.files),
+        twice(files),
         unreadable(signs, account),
         instants(signs).filter(|_| !converts),
         exchanged(signs, account),
         no_degrees(signs),
         stray_dates(tally.dates()),
+        exchanged_days(tally.dates()),
         days_without_records(trips, tally.dates()),
     ];
     columns.chain(problems.into_iter().flatten().map(of_records)).collect()
 }
 
 /// The first two files that hold the same bytes.
-fn twice(files: &[&Path]) -> Option<String> {
+fn twice(files: &[InputFile<'_>]) -> Option<String> {
     let pairs = (1..files.len()).flat_map(|second| (0..second).map(move |first| (first, second)));
     let (first, second) = pairs
-        .map(|(first, second)| (files[first], files[second]))
+        .map(|(first, second)| (&files[first], &files[second]))
         .find(|(first, second)| are_same(first, second).unwrap_or(false))?;
     Some(format!(
         "{} and {} hold the same records, which count twice in the demand of each day",
-        first.display(),
-        second.display()
+        first.origin(),
+        second.origin()
     ))
 }
 
 /// Whether two files hold the same bytes.
-fn are_same(one: &Path, other: &Path) -> std::io::Result<bool> {
-    if std::fs::metadata(one)?.len() != std::fs::metadata(other)?.len() {
+fn are_same(one: &InputFile<'_>, other: &InputFile<'_>) -> Result<bool, Error> {
+    if one.length()? != other.length()? {
         return Ok(false);
     }
-    let (mut one, mut other) = (File::open(one)?, File::open(other)?);
+    let (cannot, (mut one, mut other)) =
+        (|cause| one.cannot_read(cause), (one.content()?, other.content()?));
     let (mut block, mut other_block) = (vec![0; BLOCK], vec![0; BLOCK]);
     loop {
-        let read = one.read(&mut block)?;
-        other.read_exact(&mut other_block[..read])?;
+        let read = one.read(&mut block).map_err(cannot)?;
+        other.read_exact(&mut other_block[..read]).map_err(cannot)?;
         if read == 0 || block[..read] != other_block[..read] {
             return Ok(read == 0);
         }
@@ -80,11 +88,37 @@ fn are_same(one: &Path, other: &Path) -> std::io::Result<bool> {
 
 fn unreadable(signs: &Signs, account: &TripAccount) -> Option<String> {
     let (_, first) = signs.unreadable.as_ref()?;
+    let formats = formats_of(first);
+    let format = if formats.is_empty() {
+        String::new()
+    } else {
+        format!(", here as --time-format {} (%m is the month, %d the day)", formats.join(" or "))
+    };
     Some(format!(
         "the times of {} of {} rows cannot be read, the first of them {first:?}: read are times as {FORMS}; \
-         --time-format reads other forms",
+         --time-format reads other forms{format}",
         account.no_time, account.rows
     ))
+}
+
+/// The common formats in which a time may be written, in quotes.
+fn formats_of(text: &str) -> Vec<String> {
+    const FORMATS: [&str; 8] = [
+        "%m/%d/%Y %I:%M:%S %p",
+        "%m/%d/%Y %I:%M %p",
+        "%d/%m/%Y %H:%M:%S",
+        "%d/%m/%Y %H:%M",
+        "%m/%d/%Y %H:%M:%S",
+        "%m/%d/%Y %H:%M",
+        "%d.%m.%Y %H:%M:%S",
+        "%d.%m.%Y %H:%M",
+    ];
+    let reads = |format: &&str| {
+        let format: Option<TimeFormat> = format.parse().ok();
+        let times = format.map(|format| TripTimes::new(Some(format), None));
+        times.is_some_and(|times| times.read(Cell::text(text.as_bytes())).is_some())
+    };
+    FORMATS.into_iter().filter(reads).map(|format| format!("'{format}'")).collect()
 }
 
 fn instants(signs: &Signs) -> Option<String> {
@@ -116,26 +150,82 @@ fn no_degrees(signs: &Signs) -> Option<String> {
     })
 }
 
-/// Dates with hardly any records, which count as days and lower the mean of all.
+/// Dates with hardly any records, and dates far from most others, which count as days and lower
+/// the mean of all.
 fn stray_dates(dates: &BTreeMap<Date, u64>) -> Option<String> {
     const SHOWN: usize = 5;
     let mut counts: Vec<u64> = dates.values().copied().collect();
     counts.sort_unstable();
-    let usual = *counts.get(counts.len() / 2)? as f64;
-    let is_stray = |(_, records): &(&Date, &u64)| (**records as f64) < STRAY_SHARE * usual;
+    let usual = *counts.get(counts.len() / 2)?;
+    let far = far_dates(dates, usual as f64);
+    let is_stray = |(date, records): &(&Date, &u64)| {
+        (**records as f64) < STRAY_SHARE * usual as f64 || far.contains(*date)
+    };
     let stray: Vec<String> = dates
         .iter()
         .filter(is_stray)
-        .map(|(date, records)| format!("{date} ({records} of about {usual})"))
+        .map(|(date, records)| {
+            let far = if far.contains(date) { ", far from the other dates" } else { "" };
+            format!("{date} ({records} of about {usual}{far})")
+        })
         .collect();
     let more = if stray.len() > SHOWN { ", ..." } else { "" };
     (!stray.is_empty()).then(|| {
         format!(
-            "{} of the {} days have hardly any records, and each lowers the mean: {}{more}; --first-date and --last-date leave \
-             them out",
+            "{} of the {} days have hardly any records or are far from the others, and each lowers the mean: {}{more}; \
+             --first-date and --last-date leave them out",
             stray.len(),
             dates.len(),
             stray[..stray.len().min(SHOWN)].join(", "),
+        )
+    })
+}
+
+/// The dates that a gap separates from the group of dates with the most records: a gap of a year,
+/// or of a week to dates with few records each.
+fn far_dates(dates: &BTreeMap<Date, u64>, usual: f64) -> BTreeSet<Date> {
+    let all: Vec<(Date, u64)> = dates.iter().map(|(date, records)| (*date, *records)).collect();
+    let groups: Vec<&[(Date, u64)]> =
+        all.chunk_by(|one, next| one.0.days_until(next.0) < GAP_DAYS).collect();
+    let records = |group: &[(Date, u64)]| group.iter().map(|(_, records)| records).sum::<u64>();
+    let Some(most) = (0..groups.len()).rev().max_by_key(|&at| records(groups[at])) else {
+        return BTreeSet::new();
+    };
+    let (main_first, main_last) = ends(groups[most]);
+    let is_far = |group: &&[(Date, u64)]| {
+        let (first, last) = ends(group);
+        let apart = main_last.days_until(first).max(last.days_until(main_first));
+        let few = (records(group) as f64) < FEW_SHARE * usual * group.len() as f64;
+        apart >= YEAR_DAYS || apart >= GAP_DAYS && few
+    };
+    groups.into_iter().filter(is_far).flatten().map(|(date, _)| *date).collect()
+}
+
+/// The first and the last date of a group.
+fn ends(group: &[(Date, u64)]) -> (Date, Date) {
+    (group[0].0, group[group.len() - 1].0)
+}
+
+/// Dates that are all on few days of many months, as where a day is read as a month and a month as
+/// a day.
+fn exchanged_days(dates: &BTreeMap<Date, u64>) -> Option<String> {
+    /// Fewer months may be a sample of one day each.
+    const LEAST_MONTHS: usize = 6;
+    let parts: Vec<(i64, i64, i64)> = dates.keys().map(|date| date.parts()).collect();
+    let months: BTreeSet<(i64, i64)> =
+        parts.iter().map(|&(year, month, _)| (year, month)).collect();
+    let days: BTreeSet<i64> = parts.iter().map(|&(.., day)| day).collect();
+    // A file of some weeks has more days of the month than months. With days and months exchanged
+    // it has one or two days in each of up to twelve months.
+    let few_days = days.len() * 3 <= months.len() && days.iter().all(|&day| day <= 12);
+    (months.len() >= LEAST_MONTHS && few_days).then(|| {
+        let days: Vec<String> = days.iter().map(i64::to_string).collect();
+        format!(
+            "all {} dates are on day {} of {} months: days and months may be exchanged, where a file writes the day first and \
+             --time-format reads the month first (%d is the day, %m the month)",
+            dates.len(),
+            days.join(" or "),
+            months.len(),
         )
     })
 }

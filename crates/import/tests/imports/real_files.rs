@@ -332,7 +332,7 @@ fn times_that_cannot_be_read_show_the_first_of_them_and_a_format_reads_them() {
         [
             "V741 the trip records: the times of 3 of 4 rows cannot be read, the first of them \"01/06/2015 07:30\": read are times \
           as 2015-06-01 07:08:09, also with T in place of the space, without seconds, or with Z, UTC or an offset at its end; \
-          --time-format reads other forms"
+          --time-format reads other forms, here as --time-format '%d/%m/%Y %H:%M' or '%m/%d/%Y %H:%M' (%m is the month, %d the day)"
         ]
     );
     let folder = Folder::new();
@@ -358,8 +358,8 @@ fn stray_dates_days_without_records_and_files_given_twice_are_warned_of() {
     assert_eq!(
         of_records(&rows, |_| ()),
         [
-            "V741 the trip records: 1 of the 3 days have hardly any records, and each lowers the mean: 2001-01-01 (1 of about 150); \
-          --first-date and --last-date leave them out"
+            "V741 the trip records: 1 of the 3 days have hardly any records or are far from the others, and each lowers the mean: \
+          2001-01-01 (1 of about 150, far from the other dates); --first-date and --last-date leave them out"
         ]
     );
     assert_eq!(
