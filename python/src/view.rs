@@ -5,13 +5,17 @@ use std::sync::{Arc, Mutex, PoisonError};
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyAttributeError;
 use pyo3::prelude::*;
-use vertifleet_core::AircraftIx;
+use vertifleet_core::{AircraftIx, CurvePoint, VertiportIx};
 use vertifleet_observe::{Observer, Part, Scene, write_in_units};
 use vertifleet_sim::{Decision, Snapshot};
 
 use crate::frames::read_only;
 use crate::layout::Layout;
 use crate::observation::{Shown, scene, show, shown};
+
+/// Name, seats, speed, battery, energy a mile, charging power, self-discharge, reserve, turnaround,
+/// and points of the charging curve of a type of aircraft.
+type TypeFields = (String, u16, f64, f64, f64, f64, f64, f64, u32, Option<Vec<(f64, f64)>>);
 
 /// A decision, and the policy's view of the day at that moment.
 #[pyclass(frozen, module = "vertifleet._native")]
@@ -102,6 +106,73 @@ impl View {
     #[getter]
     fn day_end_s(&self) -> u32 {
         self.snapshot.view().day_end().seconds()
+    }
+
+    /// Start of each demand period, seconds since midnight.
+    #[getter]
+    fn period_starts_s(&self) -> Vec<u32> {
+        self.snapshot.view().period_starts().iter().map(|start| start.seconds()).collect()
+    }
+
+    /// Duration of a hold, seconds.
+    #[getter]
+    fn hold_s(&self) -> u32 {
+        self.snapshot.view().hold_s()
+    }
+
+    /// Seconds for which passengers who were not carried wait into the next demand period.
+    #[getter]
+    fn passenger_wait_s(&self) -> u32 {
+        self.snapshot.view().passenger_wait_s()
+    }
+
+    /// The fixed cost of the day, dollars: that of its fleet, stands and chargers.
+    #[getter]
+    fn fixed_cost_usd(&self) -> f64 {
+        self.snapshot.view().fixed_cost_usd()
+    }
+
+    /// Whether aircraft decide before they are full.
+    #[getter]
+    fn charges_as_needed(&self) -> bool {
+        self.snapshot.view().charges_as_needed()
+    }
+
+    /// The times of known closures over the whole day: origin, destination, and the seconds since
+    /// midnight at which each begins and ends.
+    #[getter]
+    fn known_closures(&self) -> Vec<(u16, u16, u32, u32)> {
+        let view = self.snapshot.view();
+        let all = || VertiportIx::all(view.vertiports());
+        let pairs = all().flat_map(|from| all().map(move |to| (from, to)));
+        let spans = pairs.flat_map(|(from, to)| {
+            let spans = view.known_closures().spans(from, to).iter();
+            spans.map(move |span| (from.0, to.0, span.start.seconds(), span.end.seconds()))
+        });
+        spans.collect()
+    }
+
+    /// The properties of each type of aircraft: name, seats, speed, battery, energy a mile,
+    /// charging power, self-discharge an hour, reserve, turnaround, and the points of its curve.
+    #[getter]
+    fn types(&self) -> Vec<TypeFields> {
+        let types = self.snapshot.view().aircraft_types().iter().map(|kind| {
+            let curve = kind.charge_curve.as_ref();
+            let points = |point: &CurvePoint| (point.charge, point.kw);
+            (
+                kind.id.clone(),
+                kind.seats,
+                kind.speed_mph,
+                kind.battery_kwh,
+                kind.energy_kwh_per_mi,
+                kind.charge_kw,
+                kind.self_discharge_per_h,
+                kind.reserve_kwh,
+                kind.turnaround_s,
+                curve.map(|curve| curve.points().iter().map(points).collect()),
+            )
+        });
+        types.collect()
     }
 
     /// Position of the demand period.

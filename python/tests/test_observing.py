@@ -42,7 +42,7 @@ def test_every_variant_is_a_gymnasium_environment(variant: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "observation", ["paper", "full", "gcaps-x", "gcaps-full", ["demand_left", "fleet_ready"]]
+    "observation", ["paper", "full", "full-v1", "gcaps-x", "gcaps-full", ["demand_left", "fleet_ready"]]
 )
 def test_a_batch_has_the_observations_of_single_environments(observation: Any) -> None:
     batch = FleetVectorEnv(3, "disrupted", observation=observation, threads=2)
@@ -75,6 +75,79 @@ def test_a_view_has_the_same_numbers_in_units_and_is_read_only() -> None:
         observation, *_ = env.step(int(env.action_masks().argmax()))
     with pytest.raises(AttributeError, match="scenario"):
         _ = view.scenario
+
+
+def table(day: vertifleet.Scenario, member: str) -> NDArray[np.float64]:
+    """A table of a day's file."""
+    return np.array(json.loads(day.to_json())[member], np.float64)
+
+
+def test_a_view_shows_the_forecast_and_the_fares_of_every_period_and_no_demand_before_its_time() -> None:
+    env = FleetEnv("disrupted", observation="full-v1")
+    observation, _ = env.reset(seed=2)
+    day = env.scenario
+    assert day is not None
+    forecast, actual = table(day, "forecast"), table(day, "demand")
+    assert not np.array_equal(forecast, actual)
+    periods, over = set(), False
+    while not over:
+        view = env.view
+        now = view.period
+        assert view.forecast.shape == forecast.shape
+        assert not view.forecast[:now].any()
+        assert np.array_equal(view.forecast[now], view.demand_left)
+        assert np.array_equal(view.forecast[now + 1 :], forecast[now + 1 :])
+        if now not in periods:
+            assert not np.array_equal(view.forecast[now + 1 :], actual[now + 1 :]) or now + 2 > len(actual)
+            assert (view.demand_left <= actual[now]).all()
+        periods.add(now)
+        assert np.allclose(observation["forecast"], view.forecast / 10)
+        assert np.allclose(observation["fares"], view.fares_usd / 100)
+        assert np.array_equal(view.fares_usd[now], view.fare_usd)
+        if now + 1 < len(forecast):
+            assert np.array_equal(view.forecast[now + 1], view.demand_next)
+            assert np.array_equal(view.fares_usd[now + 1], view.fare_next_usd)
+        observation, _, over, _, _ = env.step(int(env.action_masks().argmax()))
+    assert len(periods) == len(forecast)
+
+
+def test_a_view_has_the_legs_of_every_type_and_the_day_s_times_and_closures() -> None:
+    env = FleetEnv("new-york-quick")
+    env.reset(seed=2)
+    day, view = json.loads(env.scenario.to_json()), env.view
+    assert len(view.types) == len(day["aircraft_types"]) == 2
+    for kind, (found, written) in enumerate(zip(view.types, day["aircraft_types"], strict=True)):
+        for name in ("id", "seats", "speed_mph", "battery_kwh", "reserve_kwh", "turnaround_s"):
+            assert getattr(found, name) == written[name], name
+        assert [list(point) for point in found.charge_curve or []] == written["charge_curve"]
+        hours = np.array(day["distance_mi"]) / written["speed_mph"]
+        flown = view.type_reachable[kind] == 1
+        taxi_h = (day["operations"]["takeoff_s"] + day["operations"]["landing_s"]) / 3600
+        assert np.allclose(view.type_flight_time_h[kind][flown], hours[flown] + taxi_h, atol=1e-3)
+        assert (view.charger_power_kw[kind] <= written["charge_kw"]).all()
+    own = view.aircraft_type
+    for name in ("flight_time_h", "block_time_h", "energy_kwh", "reachable"):
+        assert np.array_equal(getattr(view, f"type_{name}")[own], getattr(view, name)), name
+    assert view.charges_as_needed
+    assert view.hold_s == day["operations"]["hold_s"]
+    assert len(view.period_starts_s) == len(view.forecast)
+
+
+def test_a_view_shows_the_known_closures_of_the_whole_day_and_no_others() -> None:
+    env = FleetEnv("disrupted")
+    written = json.loads(Network("disrupted").draw(2, "training").to_json())
+    at = {"from": "V2", "to": "V5", "both_ways": False}
+    known = at | {"start": "14:00:00", "end": "16:30:00", "known": True}
+    hidden = at | {"start": "10:00:00", "end": "11:00:00", "known": False}
+    written["closures"] = [known, hidden]
+    env.reset(options={"scenario": vertifleet.Scenario.from_json(json.dumps(written))})
+    found, unexpected, over = {tuple(env.view.known_closures)}, set(), False
+    while not over:
+        found.add(tuple(env.view.known_closures))
+        unexpected.add((env.view.decision.time_s // 3600, float(env.view.closed_unexpectedly[1, 4])))
+        over = env.step(int(env.action_masks().argmax()))[2]
+    assert found == {((1, 4, 14 * 3600, 16 * 3600 + 1800),)}
+    assert {hour for hour, closed in unexpected if closed} == {10}
 
 
 CHARGE = ["choice_wait", "choice_charge", "fleet_charge"]
@@ -400,7 +473,7 @@ def test_a_closed_environment_raises_an_error() -> None:
 
 def test_a_spec_is_plain_data_and_makes_the_same_environment() -> None:
     network = Network("paper").changed({"fleet.0.count": 30})
-    env = gymnasium.make("vertifleet/Fleet-full-v0", network=network)
+    env = gymnasium.make("vertifleet/Fleet-full-v1", network=network)
     assert env.spec is not None
     spec = gymnasium.envs.registration.EnvSpec.from_json(env.spec.to_json())
     again = gymnasium.make(spec)

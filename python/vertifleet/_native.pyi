@@ -585,6 +585,46 @@ class View:
     def day_end_s(self) -> int:
         """The last instant at which decisions are taken, seconds since midnight."""
     @property
+    def period_starts_s(self) -> list[int]:
+        """Start of each demand period, seconds since midnight."""
+    @property
+    def hold_s(self) -> int:
+        """Duration of a hold, seconds."""
+    @property
+    def passenger_wait_s(self) -> int:
+        """Seconds for which passengers who were not carried wait into the next demand period."""
+    @property
+    def fixed_cost_usd(self) -> float:
+        """The fixed cost of the day, dollars: that of its fleet, stands and chargers."""
+    @property
+    def charges_as_needed(self) -> bool:
+        """Whether aircraft decide before they are full."""
+    @property
+    def known_closures(self) -> list[tuple[int, int, int, int]]:
+        """The times of known closures over the whole day: origin, destination, and the seconds since
+        midnight at which each begins and ends.
+        """
+    @property
+    def types(
+        self,
+    ) -> list[
+        tuple[
+            str,
+            int,
+            float,
+            float,
+            float,
+            float,
+            float,
+            float,
+            int,
+            list[tuple[float, float]] | None,
+        ]
+    ]:
+        """The properties of each type of aircraft: name, seats, speed, battery, energy a mile, charging
+        power, self-discharge an hour, reserve, turnaround, and the points of its curve.
+        """
+    @property
     def period(self) -> int:
         """Position of the demand period."""
     @property

@@ -26,6 +26,44 @@ class Decision(NamedTuple):
     """Number of decisions taken before this one today."""
 
 
+class KnownClosure(NamedTuple):
+    """A time for which a route is known to be closed."""
+
+    origin: int
+    """Position of the vertiport of departure."""
+    destination: int
+    """Position of the destination."""
+    start_s: int
+    """Its beginning, seconds since midnight."""
+    end_s: int
+    """Its end, seconds since midnight."""
+
+
+class AircraftType(NamedTuple):
+    """The properties of a type of aircraft."""
+
+    id: str
+    """Its name."""
+    seats: int
+    """Number of passengers that a flight may carry."""
+    speed_mph: float
+    """Cruise speed, miles an hour."""
+    battery_kwh: float
+    """Capacity of the battery, kWh."""
+    energy_kwh_per_mi: float
+    """Energy of a mile of flight, kWh."""
+    charge_kw: float
+    """Charging power, kW."""
+    self_discharge_per_h: float
+    """Share of the capacity that is lost in an hour of flight."""
+    reserve_kwh: float
+    """Energy that a flight leaves in the battery, kWh."""
+    turnaround_s: int
+    """Seconds after a landing before which the aircraft is not ready."""
+    charge_curve: list[tuple[float, float]] | None
+    """Charge as a share, and charging power there, kW; None for `charge_kw` throughout."""
+
+
 class Outcome(TypedDict):
     """The outcome of a choice. A hold earns and costs nothing, and its destination is its origin."""
 
@@ -50,8 +88,8 @@ class Outcome(TypedDict):
 class View:
     """A decision, and the day at that moment: the present, what is known ahead, and the forecast.
 
-    It contains the same information as the views of the program's policies. The arrays are read-only, and
-    each is created at its first use. Tables of pairs are [from, to]; N vertiports, A aircraft, P demand
+    It contains every number that the program's rules read. The arrays are read-only, and each is created at
+    its first use. Tables of pairs are [from, to]; N vertiports, A aircraft, T types of aircraft, P demand
     periods.
     """
 
@@ -73,12 +111,19 @@ class View:
     """[N] charge of the battery when the aircraft decides again."""
     demand_left: Numbers
     """[N, N] passengers of this period who still want to fly."""
+    demand_waiting: Numbers
+    """[N, N] those of `demand_left` who have waited since the period before."""
     demand_next: Numbers
     """[N, N] forecast of the next period's passengers."""
+    forecast: Numbers
+    """[P, N, N] passengers of each period who still want to fly: 0 in passed periods, `demand_left` in this
+    one, the forecast in later ones."""
     fare_usd: Numbers
     """[N, N] fare of a passenger in this period."""
     fare_next_usd: Numbers
     """[N, N] fare of a passenger in the next period."""
+    fares_usd: Numbers
+    """[P, N, N] fare of a passenger in each period."""
     passenger_cost_usd: Numbers
     """[N, N] cost of a passenger."""
     flight_cost_usd: Numbers
@@ -93,10 +138,22 @@ class View:
     """[N, N] energy of the flight, for the deciding aircraft's type; 0 out of range."""
     reachable: Numbers
     """[N, N] 1 where a corridor leads and a full battery lasts."""
+    type_flight_time_h: Numbers
+    """[T, N, N] `flight_time_h` for each type."""
+    type_block_time_h: Numbers
+    """[T, N, N] `block_time_h` for each type."""
+    type_energy_kwh: Numbers
+    """[T, N, N] `energy_kwh` for each type."""
+    type_reachable: Numbers
+    """[T, N, N] `reachable` for each type."""
     closed: Numbers
     """[N, N] 1 where the route is closed now."""
+    closed_unexpectedly: Numbers
+    """[N, N] 1 where the route is closed now by a closure that was not known before."""
     closed_ahead: Numbers
     """[N, N, 4] 1 where the route is known to be closed in 15, 30, 45 and 60 minutes."""
+    delay_h: Numbers
+    """[N] how late a flight that is decided now is expected to leave."""
     stands: Numbers
     """[N] stands, or chargers if they are counted separately."""
     stands_taken: Numbers
@@ -105,12 +162,18 @@ class View:
     """[N] stands without chargers, if chargers are counted separately."""
     parked: Numbers
     """[N] aircraft at these."""
+    charger_power_kw: Numbers
+    """[T, N] the highest power at which each type charges at each vertiport."""
     energy_price_usd: Numbers
     """[P] price of a kWh in each demand period."""
     fleet_ready_h: Numbers
     """[A] time until each aircraft is expected to decide."""
     fleet_flying: Numbers
     """[A] 1 for each aircraft in the air."""
+    fleet_landing_h: Numbers
+    """[A] time until each aircraft lands; 0 on the ground."""
+    fleet_parked: Numbers
+    """[A] 1 for each aircraft that waits on a stand without a charger."""
     fleet_charge_kwh: Numbers
     """[A] charge of each battery when its aircraft is expected to decide."""
 
@@ -171,6 +234,41 @@ class View:
     def period(self) -> int:
         """Position of the demand period."""
         return self._native.period
+
+    @property
+    def period_starts_s(self) -> list[int]:
+        """Start of each demand period, seconds since midnight."""
+        return self._native.period_starts_s
+
+    @property
+    def hold_s(self) -> int:
+        """Duration of a hold, seconds."""
+        return self._native.hold_s
+
+    @property
+    def passenger_wait_s(self) -> int:
+        """Seconds for which passengers who were not carried wait into the next demand period."""
+        return self._native.passenger_wait_s
+
+    @property
+    def fixed_cost_usd(self) -> float:
+        """The fixed cost of the day, dollars: that of its fleet, stands and chargers."""
+        return self._native.fixed_cost_usd
+
+    @property
+    def charges_as_needed(self) -> bool:
+        """Whether aircraft decide before they are full."""
+        return self._native.charges_as_needed
+
+    @property
+    def known_closures(self) -> list[KnownClosure]:
+        """The known closures of the whole day. `closed_ahead` shows those of the next hour."""
+        return [KnownClosure(*closure) for closure in self._native.known_closures]
+
+    @property
+    def types(self) -> list[AircraftType]:
+        """The types of aircraft."""
+        return [AircraftType(*kind) for kind in self._native.types]
 
     @property
     def day_start_s(self) -> int:

@@ -40,9 +40,12 @@ pub enum Part {
     ChoiceWait,
     ChoiceCharge,
     DemandLeft,
+    DemandWaiting,
     DemandNext,
+    Forecast,
     Fare,
     FareNext,
+    Fares,
     PassengerCost,
     FlightCost,
     Distance,
@@ -50,18 +53,27 @@ pub enum Part {
     BlockTime,
     Energy,
     Reachable,
+    TypeFlightTime,
+    TypeBlockTime,
+    TypeEnergy,
+    TypeReachable,
     Closed,
+    ClosedUnexpectedly,
     ClosedAhead,
+    Delay,
     Stands,
     StandsTaken,
     Parking,
     Parked,
+    ChargerPower,
     Period,
     EnergyPrice,
     FleetPlace,
     FleetType,
     FleetReady,
     FleetFlying,
+    FleetLanding,
+    FleetParked,
     FleetCharge,
     FleetDeciding,
     Nodes,
@@ -112,6 +124,7 @@ const USD: (&str, f64) = ("$", 100.0);
 const HOURS: (&str, f64) = ("h", 1.0);
 const MILES: (&str, f64) = ("mi", 10.0);
 const KWH: (&str, f64) = ("kWh", 100.0);
+const KW: (&str, f64) = ("kW", 100.0);
 const STANDS: (&str, f64) = ("stands", 10.0);
 
 const fn info(
@@ -128,13 +141,15 @@ const fn info(
 const V: &[Axis] = &[Axis::Vertiports];
 const PAIR: &[Axis] = &[Axis::Vertiports, Axis::Vertiports];
 const FLEET: &[Axis] = &[Axis::Aircraft];
+const PERIOD_PAIR: &[Axis] = &[Axis::Periods, Axis::Vertiports, Axis::Vertiports];
+const TYPE_PAIR: &[Axis] = &[Axis::Types, Axis::Vertiports, Axis::Vertiports];
 /// The features of learned policies, whose length does not depend on the number of vertiports.
 const PRICED: Shape = Observation::Priced.shape(0);
 const FULL: Shape = Observation::Full.shape(0);
 
 /// All parts, in the order of [`Part`].
 #[rustfmt::skip]
-const INFOS: [Info; 49] = [
+const INFOS: [Info; 61] = [
     info(Part::ActionMask, ("action_mask", Some("action_mask")), V, NONE, SHARE,
         "1 for each feasible choice; the deciding aircraft's own vertiport is hold"),
     info(Part::VertiportMask, ("vertiport_mask", None), V, NONE, SHARE,
@@ -163,12 +178,18 @@ const INFOS: [Info; 49] = [
         "charge of the battery when the aircraft decides again after that flight or hold; 0 out of range"),
     info(Part::DemandLeft, ("demand_left", Some("demand_left")), PAIR, PASSENGERS, POSITIVE,
         "passengers of this period who still want to fly"),
+    info(Part::DemandWaiting, ("demand_waiting", Some("demand_waiting")), PAIR, PASSENGERS, POSITIVE,
+        "those of `demand_left` who have waited since the period before, and leave when the day's patience ends"),
     info(Part::DemandNext, ("demand_next", Some("demand_next")), PAIR, PASSENGERS, POSITIVE,
         "forecast of the next period's passengers; 0 in the last period"),
+    info(Part::Forecast, ("forecast", Some("forecast")), PERIOD_PAIR, PASSENGERS, POSITIVE,
+        "passengers of each period who still want to fly: 0 in passed periods, `demand_left` in this one, the forecast in later ones"),
     info(Part::Fare, ("fare", Some("fare_usd")), PAIR, USD, POSITIVE,
         "fare of a passenger in this period"),
     info(Part::FareNext, ("fare_next", Some("fare_next_usd")), PAIR, USD, POSITIVE,
         "fare of a passenger in the next period; 0 in the last period"),
+    info(Part::Fares, ("fares", Some("fares_usd")), PERIOD_PAIR, USD, POSITIVE,
+        "fare of a passenger in each period"),
     info(Part::PassengerCost, ("passenger_cost", Some("passenger_cost_usd")), PAIR, USD, POSITIVE,
         "cost of a passenger"),
     info(Part::FlightCost, ("flight_cost", Some("flight_cost_usd")), PAIR, USD, POSITIVE,
@@ -183,10 +204,22 @@ const INFOS: [Info; 49] = [
         "energy of the flight, for the deciding aircraft's type; 0 out of range"),
     info(Part::Reachable, ("reachable", Some("reachable")), PAIR, NONE, SHARE,
         "1 where a corridor leads and a full battery of the deciding aircraft's type lasts"),
+    info(Part::TypeFlightTime, ("type_flight_time", Some("type_flight_time_h")), TYPE_PAIR, HOURS, POSITIVE,
+        "`flight_time` for each type"),
+    info(Part::TypeBlockTime, ("type_block_time", Some("type_block_time_h")), TYPE_PAIR, HOURS, POSITIVE,
+        "`block_time` for each type"),
+    info(Part::TypeEnergy, ("type_energy", Some("type_energy_kwh")), TYPE_PAIR, KWH, POSITIVE,
+        "`energy` for each type"),
+    info(Part::TypeReachable, ("type_reachable", Some("type_reachable")), TYPE_PAIR, NONE, SHARE,
+        "`reachable` for each type"),
     info(Part::Closed, ("closed", Some("closed")), PAIR, NONE, SHARE,
         "1 where the route is closed now"),
+    info(Part::ClosedUnexpectedly, ("closed_unexpectedly", Some("closed_unexpectedly")), PAIR, NONE, SHARE,
+        "1 where the route is closed now by a closure that was not known before; how long it lasts is not known"),
     info(Part::ClosedAhead, ("closed_ahead", Some("closed_ahead")), &[Axis::Vertiports, Axis::Vertiports, Axis::Of(4)], NONE, SHARE,
         "1 where the route is known to be closed in 15, 30, 45 and 60 minutes"),
+    info(Part::Delay, ("delay", Some("delay_h")), V, HOURS, POSITIVE,
+        "how late a flight that is decided now is expected to leave: as late as the latest that left there in this quarter of an hour"),
     info(Part::Stands, ("stands", Some("stands")), V, STANDS, POSITIVE,
         "stands, or chargers where they are counted apart"),
     info(Part::StandsTaken, ("stands_taken", Some("stands_taken")), V, STANDS, POSITIVE,
@@ -195,6 +228,8 @@ const INFOS: [Info; 49] = [
         "stands without chargers, where chargers are counted apart"),
     info(Part::Parked, ("parked", Some("parked")), V, STANDS, POSITIVE,
         "aircraft at these"),
+    info(Part::ChargerPower, ("charger_power", Some("charger_power_kw")), &[Axis::Types, Axis::Vertiports], KW, POSITIVE,
+        "the highest power at which each type charges at each vertiport"),
     info(Part::Period, ("period", None), &[Axis::Periods], NONE, SHARE,
         "the demand period, one-hot"),
     info(Part::EnergyPrice, ("energy_price", Some("energy_price_usd")), &[Axis::Periods], ("$ a kWh", 1.0), POSITIVE,
@@ -207,6 +242,10 @@ const INFOS: [Info; 49] = [
         "time until each aircraft is expected to decide; an outage counts once it has begun"),
     info(Part::FleetFlying, ("fleet_flying", Some("fleet_flying")), FLEET, NONE, SHARE,
         "1 for each aircraft in the air"),
+    info(Part::FleetLanding, ("fleet_landing", Some("fleet_landing_h")), FLEET, HOURS, POSITIVE,
+        "time until each aircraft lands; 0 on the ground"),
+    info(Part::FleetParked, ("fleet_parked", Some("fleet_parked")), FLEET, NONE, SHARE,
+        "1 for each aircraft that waits on a stand without a charger"),
     info(Part::FleetCharge, ("fleet_charge", Some("fleet_charge_kwh")), FLEET, KWH, POSITIVE,
         "charge of each battery when its aircraft is expected to decide"),
     info(Part::FleetDeciding, ("fleet_deciding", None), FLEET, NONE, SHARE,
@@ -292,6 +331,26 @@ impl Part {
         matches!(self, Self::ChoiceWait | Self::ChoiceCharge | Self::FleetCharge)
     }
 
+    /// Whether version 1 of the full observation has the part and version 0 does not.
+    pub fn is_new_in_full_v1(self) -> bool {
+        self.is_of_charge()
+            || matches!(
+                self,
+                Self::DemandWaiting
+                    | Self::Forecast
+                    | Self::Fares
+                    | Self::TypeFlightTime
+                    | Self::TypeBlockTime
+                    | Self::TypeEnergy
+                    | Self::TypeReachable
+                    | Self::ClosedUnexpectedly
+                    | Self::Delay
+                    | Self::ChargerPower
+                    | Self::FleetLanding
+                    | Self::FleetParked
+            )
+    }
+
     /// Whether the part's array has the shape of one network, and cannot be padded to that of a
     /// larger one.
     pub fn is_of_one_size(self) -> bool {
@@ -304,7 +363,9 @@ impl Part {
             || matches!(
                 self,
                 Self::DemandNext
+                    | Self::Forecast
                     | Self::FareNext
+                    | Self::Fares
                     | Self::ClosedAhead
                     | Self::EnergyPrice
                     | Self::FullNodes

@@ -57,28 +57,48 @@ impl Writer<'_> {
                 to[own.at()] = (self.charge_kwh(own) * factor) as f32;
             }
             Part::DemandLeft => pairs().counts(to, view.demand_left_in(view.period())),
+            Part::DemandWaiting => self.waiting(&pairs(), to),
             Part::DemandNext => self.next_period(|period| pairs().counts(to, view.demand_left_in(period))),
+            Part::Forecast => self.forecast(&pairs(), to),
             Part::Fare => pairs().rows(to, |from| view.fares_usd(view.period(), from)),
             Part::FareNext => self.next_period(|period| pairs().rows(to, |from| view.fares_usd(period, from))),
+            Part::Fares => self.fares(&pairs(), to),
             Part::PassengerCost => pairs().rows(to, |from| view.passenger_costs_usd(from)),
             Part::FlightCost => pairs().rows(to, |from| view.flight_costs_usd(from)),
             Part::Distance => pairs().rows(to, |from| view.distances_mi(from)),
-            Part::FlightTime => self.legs(&pairs(), to, |leg| hours(leg.flight_s)),
-            Part::BlockTime => self.legs(&pairs(), to, |leg| hours(leg.block_s())),
-            Part::Energy => self.legs(&pairs(), to, |leg| leg.energy_kwh),
+            Part::FlightTime => self.legs(&pairs(), self.scene.kind(), to, |leg| hours(leg.flight_s)),
+            Part::BlockTime => self.legs(&pairs(), self.scene.kind(), to, |leg| hours(leg.block_s())),
+            Part::Energy => self.legs(&pairs(), self.scene.kind(), to, |leg| leg.energy_kwh),
             Part::Reachable => pairs().sets(to, |from| *view.within_range(self.scene.kind(), from)),
+            Part::TypeFlightTime => self.each_type(&pairs(), to, |kind, to| {
+                self.legs(&pairs(), kind, to, |leg| hours(leg.flight_s));
+            }),
+            Part::TypeBlockTime => self.each_type(&pairs(), to, |kind, to| {
+                self.legs(&pairs(), kind, to, |leg| hours(leg.block_s()));
+            }),
+            Part::TypeEnergy => self.each_type(&pairs(), to, |kind, to| {
+                self.legs(&pairs(), kind, to, |leg| leg.energy_kwh);
+            }),
+            Part::TypeReachable => self.each_type(&pairs(), to, |kind, to| {
+                pairs().sets(to, |from| *view.within_range(kind, from));
+            }),
             Part::Closed => pairs().sets(to, |from| view.closed(from)),
+            Part::ClosedUnexpectedly => pairs().sets(to, |from| view.closed_unexpectedly(from)),
             Part::ClosedAhead => self.closed_ahead(to),
+            Part::Delay => self.vertiports(to, factor, |at| hours(view.known_delay_s(self.now(), at))),
             Part::Stands => self.vertiports(to, factor, |at| f64::from(view.stands(at))),
             Part::StandsTaken => self.vertiports(to, factor, |at| f64::from(view.stands_taken()[at.at()])),
             Part::Parking => self.vertiports(to, factor, |at| f64::from(view.parked(at).1)),
             Part::Parked => self.vertiports(to, factor, |at| f64::from(view.parked(at).0)),
+            Part::ChargerPower => self.charger_power(to, factor),
             Part::Period => to[view.period()] = 1.0,
             Part::EnergyPrice => scaled(to, view.energy_prices_usd(), factor),
             Part::FleetPlace => self.mark_fleet(to, self.sizes.vertiports, |at| view.places()[at.at()].at()),
             Part::FleetType => self.mark_fleet(to, self.sizes.types, |at| view.kind(at).at()),
             Part::FleetReady => self.fleet(to, |at| hours(view.ready_at(at).since(self.now())) * factor),
             Part::FleetFlying => self.fleet(to, |at| f64::from(u8::from(view.arrives_at(at) > self.now()))),
+            Part::FleetLanding => self.fleet(to, |at| hours(view.arrives_at(at).since(self.now())) * factor),
+            Part::FleetParked => self.fleet(to, |at| f64::from(u8::from(view.is_parked(at)))),
             Part::FleetCharge => self.fleet(to, |at| view.charge_kwh(at) * factor),
             Part::FleetDeciding => to[self.scene.decision.aircraft.at()] = 1.0,
             Part::Nodes => self.scales.write_nodes(to, view),
@@ -178,9 +198,55 @@ impl Writer<'_> {
         departures.profit_from_usd(takeoff, to, waiting)
     }
 
-    fn legs(&self, pairs: &Pairs, to: &mut [f32], number: impl Fn(&Leg) -> f64) {
+    /// Writes the table of each type.
+    fn each_type(&self, pairs: &Pairs, to: &mut [f32], table: impl Fn(TypeIx, &mut [f32])) {
+        let types = TypeIx::all(self.scene.view.aircraft_types().len());
+        for (kind, to) in types.zip(to.chunks_exact_mut(pairs.stride * pairs.stride)) {
+            table(kind, to);
+        }
+    }
+
+    /// Writes the passengers of this period and of later ones. Those of passed periods who were not
+    /// carried cannot fly any more, so their tables stay 0.
+    fn forecast(&self, pairs: &Pairs, to: &mut [f32]) {
         let view = self.scene.view;
-        let kind: TypeIx = self.scene.kind();
+        let tables = to.chunks_exact_mut(pairs.stride * pairs.stride);
+        for (period, to) in (0..view.period_starts().len()).zip(tables).skip(view.period()) {
+            pairs.counts(to, view.demand_left_in(period));
+        }
+    }
+
+    fn fares(&self, pairs: &Pairs, to: &mut [f32]) {
+        let view = self.scene.view;
+        let tables = to.chunks_exact_mut(pairs.stride * pairs.stride);
+        for (period, to) in (0..view.period_starts().len()).zip(tables) {
+            pairs.rows(to, |from| view.fares_usd(period, from));
+        }
+    }
+
+    fn waiting(&self, pairs: &Pairs, to: &mut [f32]) {
+        let view = self.scene.view;
+        if view.passenger_wait_s() == 0 {
+            return;
+        }
+        for from in VertiportIx::all(pairs.vertiports) {
+            let row = pairs.row(to, from);
+            for (at, to) in VertiportIx::all(pairs.vertiports).zip(row) {
+                *to = (f64::from(view.demand_waiting(from, at)) * pairs.factor) as f32;
+            }
+        }
+    }
+
+    fn charger_power(&self, to: &mut [f32], factor: f64) {
+        let view = self.scene.view;
+        let types = TypeIx::all(view.aircraft_types().len());
+        for (kind, row) in types.zip(to.chunks_exact_mut(self.sizes.vertiports)) {
+            self.vertiports(row, factor, |at| view.charging_power_kw(kind, at));
+        }
+    }
+
+    fn legs(&self, pairs: &Pairs, kind: TypeIx, to: &mut [f32], number: impl Fn(&Leg) -> f64) {
+        let view = self.scene.view;
         for from in VertiportIx::all(pairs.vertiports) {
             let legs = view.legs_from(kind, from);
             let row = pairs.row(to, from);

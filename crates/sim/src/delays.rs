@@ -66,10 +66,18 @@ impl Delays {
         self.are_expected = true;
     }
 
-    /// How late a flight is expected to be, seconds.
+    /// How late a flight is expected to be, seconds; 0 unless delays are
+    /// [expected](Self::expect).
     #[inline]
     pub(crate) fn expected_s(&self, decided: Time, from: VertiportIx) -> u32 {
-        let latest = self.latest.get(from.at()).copied().flatten().filter(|_| self.are_expected);
+        if self.are_expected { self.known_s(decided, from) } else { 0 }
+    }
+
+    /// How late the latest flight was that left a vertiport in the quarter of an hour of a time,
+    /// seconds; 0 if none has left.
+    #[inline]
+    pub(crate) fn known_s(&self, decided: Time, from: VertiportIx) -> u32 {
+        let latest = self.latest.get(from.at()).copied().flatten();
         let quarter = |time: Time| time.seconds() / TOGETHER_S;
         latest
             .filter(|latest| quarter(latest.decided) == quarter(decided))

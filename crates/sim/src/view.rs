@@ -130,6 +130,12 @@ impl<'a> View<'a> {
         self.simulation.legs().rate(kind, at)
     }
 
+    /// The highest power at which a type charges at a vertiport, kW, which its curve may lower.
+    pub fn charging_power_kw(&self, kind: TypeIx, at: VertiportIx) -> f64 {
+        let charger_kw = self.scenario().vertiports[at.at()].charger_kw.unwrap_or(f64::INFINITY);
+        self.aircraft_type(kind).charge_kw.min(charger_kw)
+    }
+
     /// The legs of one type from a vertiport to each vertiport.
     #[inline]
     pub fn legs_from(&self, kind: TypeIx, from: VertiportIx) -> &'a [Leg] {
@@ -168,6 +174,13 @@ impl<'a> View<'a> {
     #[inline]
     pub fn route_changes(&self) -> usize {
         self.simulation.closures().surprises_so_far()
+    }
+
+    /// How late a flight that is decided at a time is expected to leave a vertiport, seconds: as
+    /// late as the latest flight that left it in the same quarter of an hour, 0 if none has.
+    /// Imagined days continue with it.
+    pub fn known_delay_s(&self, decided: Time, from: VertiportIx) -> u32 {
+        self.simulation.delays.known_s(decided, from)
     }
 
     /// The vertiport where each aircraft stands or will land.
@@ -228,6 +241,13 @@ impl<'a> View<'a> {
     #[inline]
     pub fn demand_left_in(&self, period: usize) -> &'a [u32] {
         self.simulation.demand().period(period)
+    }
+
+    /// Those of [`demand_left`](Self::demand_left) in the current period who have waited since the
+    /// period before. They leave when [`passenger_wait_s`](Self::passenger_wait_s) of the current
+    /// period have passed.
+    pub fn demand_waiting(&self, from: VertiportIx, to: VertiportIx) -> u32 {
+        self.simulation.demand().waiting(from, to)
     }
 
     /// d_ij, miles, from one vertiport to each.
@@ -326,6 +346,11 @@ impl<'a> View<'a> {
     /// number of these stands; both 0 at other vertiports.
     pub fn parked(&self, vertiport: VertiportIx) -> (u16, u16) {
         self.simulation.stands().parked(vertiport)
+    }
+
+    /// Whether an aircraft waits on such a stand.
+    pub fn is_parked(&self, aircraft: AircraftIx) -> bool {
+        self.simulation.stands().waits(aircraft)
     }
 
     /// The rest of the day as it can be imagined from here, to be played out.

@@ -14,6 +14,7 @@ VARIANTS = {
     "vertifleet/Fleet-v0": "paper",
     "vertifleet/Fleet-paper-v0": "paper",
     "vertifleet/Fleet-full-v0": "full",
+    "vertifleet/Fleet-full-v1": "full-v1",
     "vertifleet/Fleet-gcaps-x-v0": "gcaps-x",
     "vertifleet/Fleet-gcaps-full-v0": "gcaps-full",
 }

@@ -20,7 +20,7 @@ Observation: TypeAlias = dict[str, NDArray[np.float32]]
 
 Info: TypeAlias = dict[str, Any]
 
-PRESETS = ("paper", "full", "gcaps-x", "gcaps-full")
+PRESETS = ("paper", "full", "full-v1", "gcaps-x", "gcaps-full")
 
 
 @dataclass(frozen=True)

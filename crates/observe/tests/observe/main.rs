@@ -1,4 +1,5 @@
 //! What observations promise.
 
+mod complete;
 mod documentation;
 mod observation;

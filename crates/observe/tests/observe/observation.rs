@@ -30,7 +30,7 @@ fn part<'a>(layout: &Layout, row: &'a [f32], part: Part) -> &'a [f32] {
 }
 
 /// Plays a day, flying in turn to each feasible vertiport, and calls `each` at every decision.
-fn play(day: &Arc<Scenario>, mut each: impl FnMut(View<'_>, &Decision)) -> Simulation {
+pub(crate) fn play(day: &Arc<Scenario>, mut each: impl FnMut(View<'_>, &Decision)) -> Simulation {
     let mut simulation = Simulation::new(Arc::clone(day));
     while let Some(decision) = simulation.next_decision() {
         each(simulation.view(), &decision);
@@ -175,7 +175,7 @@ fn check_the_full<'a>(
     }
 }
 
-fn days() -> Vec<Arc<Scenario>> {
+pub(crate) fn days() -> Vec<Arc<Scenario>> {
     let seed = |number| DaySeed::training_number(number).expect("a number");
     let shipped = ["paper", "disrupted", "new-york", "paper-quick", "new-york-quick"]
         .map(|name| Arc::new(Network::shipped(name).expect("a shipped network").draw(seed(3))));
@@ -244,13 +244,32 @@ fn policies_observe_the_values_of_the_parts() {
 }
 
 #[test]
-fn observations_by_name_do_not_depend_on_charge_beyond_that_of_the_paper() {
-    let of_charge = |part: &Part| part.is_of_charge();
-    assert_eq!(Part::all().filter(of_charge).count(), 3);
+fn only_the_first_version_of_the_full_observation_depends_on_charge_beyond_that_of_the_paper() {
+    let of_charge = |part: &&Part| part.is_of_charge();
+    assert_eq!(Part::all().filter(|part| of_charge(&part)).count(), 3);
     for name in PRESETS {
         let parts = preset(name).expect("an observation of ours");
-        assert!(!parts.iter().any(of_charge), "{name}");
+        let expected = if name == "full-v1" { 3 } else { 0 };
+        assert_eq!(parts.iter().filter(of_charge).count(), expected, "{name}");
     }
+}
+
+/// A policy that was trained on the observation reads its arrays at the same places.
+#[test]
+fn the_full_observation_has_kept_its_parts() {
+    let names = |name| {
+        let parts = preset(name).expect("an observation of ours");
+        parts.into_iter().map(|part| part.info().name).collect::<Vec<_>>()
+    };
+    let kept = "action_mask vertiport_mask fleet_mask time place aircraft_type types choice_profit \
+                choice_passengers choice_flight_time choice_block_time demand_left demand_next fare \
+                fare_next passenger_cost flight_cost distance flight_time block_time energy reachable \
+                closed closed_ahead stands stands_taken parking parked period energy_price fleet_place \
+                fleet_type fleet_ready fleet_flying fleet_deciding";
+    assert_eq!(names("full").join(" "), kept);
+    let of_v1 = names("full-v1");
+    assert!(kept.split(' ').all(|part| of_v1.contains(&part)));
+    assert!(of_v1.contains(&"forecast") && of_v1.contains(&"fares"));
 }
 
 #[test]

@@ -33,6 +33,7 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
         if view.charges_as_needed() {
             assert_eq!(view.charge_mwh(aircraft) as f64 / 1e6, charge_kwh);
         }
+        let times = (times, view.is_parked(aircraft));
         let of_it = (view.aircraft_id(aircraft), times, view.aircraft_type(kind), charge_kwh);
         shown.push(format!("{of_it:?}"));
     }
@@ -46,7 +47,10 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
     }
     for from in VertiportIx::all(view.vertiports()) {
         shown.push(format!("{:?} {:?}", view.stands(from), (view.parked(from), view.closed(from))));
-        shown.push(format!("{:?}", view.closed_unexpectedly(from)));
+        let delay_s = view.known_delay_s(decision.time, from);
+        shown.push(format!("{:?} {delay_s}", view.closed_unexpectedly(from)));
+        let waiting = VertiportIx::all(view.vertiports()).map(|to| view.demand_waiting(from, to));
+        shown.push(format!("{:?}", waiting.collect::<Vec<_>>()));
         shown.push(format!("{:?}", view.passenger_costs_usd(from)));
         shown.push(format!("{:?} {:?}", view.flight_costs_usd(from), view.distances_mi(from)));
         for kind in TypeIx::all(view.aircraft_types().len()) {
@@ -55,6 +59,7 @@ pub(crate) fn shown(view: View<'_>, decision: &Decision) -> Vec<String> {
                 view.legs_from(kind, from),
                 view.within_range(kind, from)
             ));
+            shown.push(format!("{}", view.charging_power_kw(kind, from)));
             if view.charges_as_needed() {
                 shown.push(format!("{:?}", view.charge_rate(kind, from)));
             }
