@@ -49,7 +49,8 @@ impl Days {
     /// Whether a name stands for a source that draws a new network for each day.
     #[staticmethod]
     fn are_drawn(name: &str) -> bool {
-        name == "random" || name.starts_with(RANDOM_PLACES)
+        let size = name.strip_prefix(RANDOM_PLACES);
+        name == "random" || size.is_some_and(|size| !size.contains(':'))
     }
 
     /// Largest numbers of vertiports, aircraft, types and periods of a day.

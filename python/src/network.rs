@@ -17,8 +17,10 @@ use crate::whole_number::WholeNumber;
 /// A network: vertiports, fleet, tariffs, and the models that days are drawn from.
 ///
 /// `Network("paper")` is the shipped network with that name (`Network.shipped` lists the names),
-/// `Network("random:7")` is the random network with that number, and `Network("mine.toml")` is read
-/// from the network file at that path. A `Network` never changes. A pickle of it contains the whole
+/// `Network("random:7")` is the random network with that number, by which policies are compared;
+/// `Network("random-training:7")` is one to learn from, and `Network("random-validation:7")` one to
+/// choose settings by. `Network("mine.toml")` is read from the network file at that path. A
+/// `Network` never changes. A pickle of it contains the whole
 /// network.
 #[pyclass(frozen, from_py_object, module = "vertifleet")]
 #[derive(Clone)]
@@ -78,6 +80,13 @@ impl Network {
     #[getter]
     fn name(&self) -> &str {
         self.network.name()
+    }
+
+    /// The split that a random network was drawn for: "training", "validation" or "comparison".
+    /// None for other networks, which serve every split.
+    #[getter]
+    fn split(&self) -> Option<&'static str> {
+        self.network.purpose().map(core::Purpose::name)
     }
 
     /// The text of the network file.

@@ -72,11 +72,12 @@ impl Scenario {
         self.scenario.seed
     }
 
-    /// The split that the seed belongs to: "training", "validation" or "comparison".
+    /// The split of the day: "training", "validation" or "comparison". It is that of its seed, or
+    /// that of its network if the network was drawn for a stricter one: every day of "random:7" is
+    /// a comparison day.
     #[getter]
     fn split(&self) -> &'static str {
-        let is_of = |purpose: &core::Purpose| purpose.seeds().contains(&self.scenario.seed);
-        core::Purpose::ALL.into_iter().find(is_of).unwrap_or_default().name()
+        self.scenario.purpose().name()
     }
 
     /// Ids of the vertiports, in the order that all arrays use.

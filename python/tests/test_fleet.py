@@ -7,6 +7,8 @@ import pickle
 import subprocess
 import sys
 import warnings
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import gymnasium
@@ -15,8 +17,8 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 import vertifleet
-from vertifleet.envs import FleetEnv
-from vertifleet.envs.days import _warn_once
+from vertifleet.envs import FleetEnv, FleetVectorEnv
+from vertifleet.envs.days import _warn_once, _warn_once_of_networks
 
 Step = tuple[dict[str, np.ndarray], float, bool, dict[str, object]]
 
@@ -310,6 +312,50 @@ def test_infos_name_the_split_of_a_day() -> None:
         warnings.simplefilter("error")
         env.reset(options={"scenario": day})
     assert vertifleet.Network("paper").draw(1, "training").split == "training"
+
+
+def test_the_days_of_a_comparison_network_are_comparison_days_whatever_their_split() -> None:
+    _warn_once_of_networks.cache_clear()
+    with pytest.warns(UserWarning, match="comparison network"):
+        env = FleetEnv("random:7")
+    assert env.reset(seed=1)[1]["split"] == "comparison"
+    assert env.scenario is not None
+    assert env.scenario.seed >= 2**41
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert FleetEnv("random-training:7").reset(seed=1)[1]["split"] == "training"
+        assert FleetEnv("random-validation:7").reset(seed=1)[1]["split"] == "validation"
+        assert FleetEnv("random-places-training:8:7").reset(seed=1)[1]["split"] == "training"
+        batch = FleetVectorEnv(2, ["random-training:1", "random-validation:2"], observation="full")
+        assert set(batch.reset(seed=1)[1]["split"]) <= {"training", "validation"}
+    names = ["random:7", "random-places:8:7", "random-validation:7", "random-training:7", "paper"]
+    splits = ["comparison", "comparison", "validation", "training", None]
+    assert [vertifleet.Network(name).split for name in names] == splits
+    written = vertifleet.Network.from_toml(vertifleet.Network("random:7").toml)
+    assert written.split == written.draw(0, "training").split == "comparison"
+
+
+def learn_by_dataset(_folder: Path) -> None:
+    vertifleet.dataset("greedy", 1, network="random:7")
+
+
+def learn_by_pettingzoo(_folder: Path) -> None:
+    pytest.importorskip("pettingzoo")
+    from vertifleet import pettingzoo
+
+    pettingzoo.env("random:7")
+
+
+def learn_by_train(folder: Path) -> None:
+    settings = {"total_steps": 64, "n_envs": 1, "n_steps": 64, "batch_size": 64, "eval_days": 1}
+    vertifleet.train("random-places:8:7", "mlp", out=folder, settings=settings)
+
+
+@pytest.mark.parametrize("learn", [learn_by_dataset, learn_by_pettingzoo, learn_by_train])
+def test_what_learns_on_a_comparison_network_warns(learn: Callable[[Path], None], tmp_path: Path) -> None:
+    _warn_once_of_networks.cache_clear()
+    with pytest.warns(UserWarning, match="comparison network"):
+        learn(tmp_path)
 
 
 def test_texts_in_infos_survive_a_conversion_to_tensors() -> None:

@@ -56,8 +56,10 @@ class Network:
     """A network: vertiports, fleet, tariffs, and the models that days are drawn from.
 
     `Network("paper")` is the shipped network with that name (`Network.shipped` lists the names),
-    `Network("random:7")` is the random network with that number, and `Network("mine.toml")` is read from
-    the network file at that path. A `Network` never changes. A pickle of it contains the whole network.
+    `Network("random:7")` is the random network with that number, by which policies are compared;
+    `Network("random-training:7")` is one to learn from, and `Network("random-validation:7")` one to choose
+    settings by. `Network("mine.toml")` is read from the network file at that path. A `Network` never
+    changes. A pickle of it contains the whole network.
     """
     def __new__(cls, name_or_path: _Path) -> Network: ...
     @staticmethod
@@ -77,6 +79,11 @@ class Network:
     @property
     def name(self) -> str:
         """The name of the network. The days that are drawn from it are called `{name}-{seed}`."""
+    @property
+    def split(self) -> Literal["training", "validation", "comparison"] | None:
+        """The split that a random network was drawn for: "training", "validation" or "comparison". None
+        for other networks, which serve every split.
+        """
     @property
     def toml(self) -> str:
         """The text of the network file."""
@@ -148,7 +155,10 @@ class Scenario:
         """
     @property
     def split(self) -> Literal["training", "validation", "comparison"]:
-        """The split that the seed belongs to: "training", "validation" or "comparison"."""
+        """The split of the day: "training", "validation" or "comparison". It is that of its seed, or that
+        of its network if the network was drawn for a stricter one: every day of "random:7" is a
+        comparison day.
+        """
     @property
     def vertiports(self) -> list[str]:
         """Ids of the vertiports, in the order that all arrays use."""

@@ -6,7 +6,9 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from vertifleet import _native
-from vertifleet._native import Network
+from vertifleet._compare import network_of
+from vertifleet._native import Days, Network
+from vertifleet.envs.days import warn_of_network
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -55,6 +57,10 @@ def train(
     Raises:
         Error: with the program's code for the error, such as V311 for a folder with an earlier run.
     """
+    if not isinstance(network, Network) and not Days.are_drawn(os.fspath(network)):
+        network = network_of(network)
+    if isinstance(network, Network):
+        warn_of_network(network, "training")
     return _native.train(
         network if isinstance(network, Network) else os.fspath(network),
         policy,

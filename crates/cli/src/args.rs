@@ -29,7 +29,7 @@ pub(crate) use planning::{
 pub(crate) use service::{OperateArguments, ServeAction, ServeArguments, Speed, TokenAction};
 
 /// The help of arguments that several commands take.
-const NETWORK: &str = "Network file, the name of a shipped network (paper, paper-quick, disrupted, new-york, new-york-quick, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, or random-places:SIZE:NUMBER";
+const NETWORK: &str = "Network file, the name of a shipped network (paper, paper-quick, disrupted, new-york, new-york-quick, large, as-coded, san-francisco, los-angeles, dallas, paris), random:NUMBER, random-training:NUMBER, random-validation:NUMBER, or random-places:SIZE:NUMBER";
 const FORCE: &str =
     "Replace a file that this program did not write or that is read-only; never an input file";
 const STEP: &str = "Longest price interval of the bound, minutes, 1 to 60; a shorter one never loosens the bound, and takes longer";

@@ -21,7 +21,7 @@ pub(crate) mod train;
 use std::path::Path;
 
 use anstream::eprintln;
-use vertifleet_core::{Network, Outputs, Scenario, World};
+use vertifleet_core::{Network, Outputs, Purpose, Scenario, World};
 use vertifleet_report::folder;
 use vertifleet_study::{PolicySource, PolicySpec};
 
@@ -93,6 +93,21 @@ fn warn_unserved_days<'a>(days: impl IntoIterator<Item = &'a Scenario>) {
     if more > 0 {
         eprintln!("and {more} more such warnings");
     }
+}
+
+/// Warns if days of a purpose are asked for, and the network was drawn for another one. Results on
+/// a network that policies are trained on say nothing of other networks, and policies that are
+/// trained or chosen on a comparison network must not be reported on it.
+fn warn_of_purpose(network: &Network, purpose: Purpose) {
+    let Some(drawn_for) = network.purpose().filter(|&drawn_for| drawn_for != purpose) else {
+        return;
+    };
+    let (name, drawn_for) = (network.name(), drawn_for.name());
+    let stricter = network.purpose().map_or(purpose, |of| of.stricter(purpose)).name();
+    eprintln!(
+        "warning: {name} is a {drawn_for} network, but its {} days are asked for: treat them as {stricter} days",
+        purpose.name()
+    );
 }
 
 /// Prints the warnings about passengers whom no fleet can carry, for studies of fleets.

@@ -88,7 +88,7 @@ pub enum Error {
     /// Fix: give one of the names that the message lists, `random:` and a number, as `random:7`, or
     /// the path of a network file.
     #[error(
-        "there is no network {name:?}: shipped are {shipped}, random:NUMBER and random-places:SIZE:NUMBER draw one, and no file has that path"
+        "there is no network {name:?}: shipped are {shipped}, random:NUMBER, random-training:NUMBER, random-validation:NUMBER and random-places:SIZE:NUMBER draw one, and no file has that path"
     )]
     UnknownNetwork {
         /// The name that was asked for.

@@ -73,8 +73,10 @@ pub use output::{
     FolderKind, OutputError, OutputKind, Outputs, block_writes, check_folder, check_output,
     create_folder, replace_folder, write_atomically,
 };
+pub(crate) use random_network::drawn_for;
 pub use random_network::{RANDOM_PLACES, random_city, random_network, random_places};
 pub use scenario::{Aircraft, AircraftType, Day, Degrees, Operations, Scenario, Vertiport};
+pub(crate) use seeds::purpose_of;
 pub use seeds::{DaySeed, Purpose};
 pub use stop::{Stop, Stopped};
 pub use time::Time;

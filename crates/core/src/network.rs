@@ -9,13 +9,19 @@ use crate::paths::origin;
 use crate::random::to_whole;
 use crate::{
     AircraftType, Error, FeatureScales, Matrix, Operations, Purpose, Scenario, Time, Vertiport,
-    input, nearest, network_file, parse, random_network, random_places,
+    drawn_for, input, nearest, network_file, parse, random_network, random_places,
 };
 
-/// The prefix of the number of a random network.
+/// The prefix of the number of a random comparison network.
 const RANDOM: &str = "random:";
-/// The prefix of the size and the number of a network at random places.
+/// The prefix of the size and the number of a comparison network at random places.
 const RANDOM_PLACES: &str = "random-places:";
+/// The prefixes of the same for networks of other purposes.
+const OF_PURPOSES: [(Purpose, &str, &str); 3] = [
+    (Purpose::Comparison, RANDOM, RANDOM_PLACES),
+    (Purpose::Validation, "random-validation:", "random-places-validation:"),
+    (Purpose::Training, "random-training:", "random-places-training:"),
+];
 /// The networks that are compiled into the program, by name.
 const SHIPPED: &[(&str, &str)] = &[
     ("paper", include_str!("../../../networks/paper.toml")),
@@ -112,7 +118,8 @@ impl Network {
 
     /// Finds the shipped network of this name, the random comparison network of this number
     /// (`random:7`), the one of this number with a given number of vertiports at random places
-    /// (`random-places:8:7`), or else reads the network file at this path.
+    /// (`random-places:8:7`), the same for training or validation (`random-training:7`,
+    /// `random-places-validation:8:7`), or else reads the network file at this path.
     ///
     /// # Errors
     /// [`Error::UnknownNetwork`] if it is none of these, and the errors of [`Network::read`].
@@ -120,15 +127,17 @@ impl Network {
         if let Some(network) = Self::shipped(name_or_path) {
             return Ok(network);
         }
-        let number = name_or_path.strip_prefix(RANDOM).and_then(|number| number.parse().ok());
-        if let Some(number) = number {
-            return Ok(random_network(Purpose::Comparison, number));
-        }
-        let places = name_or_path.strip_prefix(RANDOM_PLACES).and_then(|rest| rest.split_once(':'));
-        if let Some((Ok(vertiports), Ok(number))) =
-            places.map(|(vertiports, number)| (vertiports.parse(), number.parse()))
-        {
-            return random_places(Purpose::Comparison, vertiports, number);
+        for (purpose, random, places) in OF_PURPOSES {
+            let number = name_or_path.strip_prefix(random).and_then(|number| number.parse().ok());
+            if let Some(number) = number {
+                return Ok(random_network(purpose, number));
+            }
+            let places = name_or_path.strip_prefix(places).and_then(|rest| rest.split_once(':'));
+            if let Some((Ok(vertiports), Ok(number))) =
+                places.map(|(vertiports, number)| (vertiports.parse(), number.parse()))
+            {
+                return random_places(purpose, vertiports, number);
+            }
         }
         let path = Path::new(name_or_path);
         let looks_like_a_path = path.components().count() > 1 || path.extension().is_some();
@@ -163,6 +172,12 @@ impl Network {
     /// if batteries are full then.
     pub fn start_charge(&self) -> Option<(f64, f64)> {
         self.start_charge
+    }
+
+    /// The purpose that the network was drawn for; `None` for networks that were not drawn, which
+    /// serve every purpose.
+    pub fn purpose(&self) -> Option<Purpose> {
+        drawn_for(&self.name)
     }
 
     /// The time zone of the clocks of its vertiports by its name in the IANA database, for example

@@ -19,7 +19,8 @@ pub use city::random_city;
 pub use places::{RANDOM_PLACES, random_places};
 
 /// Draws a network file and reads it. [`Network::find`] finds the random comparison networks by
-/// `random:NUMBER`.
+/// `random:NUMBER`, and those of other purposes by `random-training:NUMBER` and
+/// `random-validation:NUMBER`.
 ///
 /// Different purposes never share a network, so a policy trained on some can be evaluated on
 /// others.
@@ -135,6 +136,29 @@ fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
     text.write_fmt(what).expect("memory takes everything");
 }
 
+/// The purpose that a network was drawn for, by its name: `random-training-7`,
+/// `random-city-training-7` or `places-8-training-7`. `None` for other networks, which serve every
+/// purpose.
+pub(crate) fn drawn_for(network: &str) -> Option<Purpose> {
+    let of_places = |rest: &'_ str| {
+        let (vertiports, rest) = rest.split_once('-')?;
+        is_number(vertiports).then(|| rest.to_owned())
+    };
+    let rest = match network.strip_prefix("places-") {
+        Some(rest) => of_places(rest)?,
+        None => {
+            let rest = network.strip_prefix("random-")?;
+            rest.strip_prefix("city-").unwrap_or(rest).to_owned()
+        }
+    };
+    let (purpose, number) = rest.split_once('-')?;
+    Purpose::named(purpose).filter(|_| is_number(number))
+}
+
+fn is_number(text: &str) -> bool {
+    text.parse::<u64>().is_ok()
+}
+
 /// The random stream of a number; each purpose has separate streams.
 fn generator(purpose: Purpose, number: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(number);
@@ -148,7 +172,7 @@ fn generator(purpose: Purpose, number: u64) -> ChaCha8Rng {
 
 #[cfg(test)]
 mod tests {
-    use super::{random_network, text};
+    use super::{drawn_for, random_city, random_network, random_places, text};
     use crate::{Coded, DaySeed, Network, Purpose};
 
     #[test]
@@ -171,6 +195,55 @@ mod tests {
         assert_eq!(found.draw(seed), random_network(Purpose::Comparison, 7).draw(seed));
         for name in ["random:", "random:-1", "random:seven"] {
             assert_eq!(Network::find(name).expect_err("no number").code().to_string(), "V119");
+        }
+    }
+
+    #[test]
+    fn networks_of_every_purpose_are_found_by_their_names_and_know_it() {
+        let name = |purpose| match purpose {
+            Purpose::Comparison => ("random", "random-places"),
+            Purpose::Validation => ("random-validation", "random-places-validation"),
+            Purpose::Training => ("random-training", "random-places-training"),
+        };
+        for purpose in Purpose::ALL {
+            let (random, places) = name(purpose);
+            let found = [format!("{random}:7"), format!("{places}:8:7")]
+                .map(|name| Network::find(&name).expect("a random network"));
+            let places = random_places(purpose, 8, 7).expect("8 vertiports");
+            let drawn = [random_network(purpose, 7), places];
+            assert_eq!(found.each_ref().map(Network::toml), drawn.each_ref().map(Network::toml));
+            for network in found.iter().chain(&drawn).chain([&random_city(purpose, 7)]) {
+                assert_eq!(network.purpose(), Some(purpose), "{}", network.name());
+            }
+        }
+        for name in
+            ["paper", "random-7", "random-training", "random-training-x", "places-training-7"]
+        {
+            assert_eq!(drawn_for(name), None, "{name}");
+        }
+        for name in ["random-training:", "random-testing:7", "random-places-training:7"] {
+            assert_eq!(Network::find(name).expect_err("no network").code().to_string(), "V119");
+        }
+    }
+
+    #[test]
+    fn the_purpose_of_a_day_is_the_stricter_of_its_seed_and_its_network() {
+        use Purpose::{Comparison, Training, Validation};
+        let seed = |purpose| DaySeed::of_purpose(purpose, 3).expect("a seed");
+        for (network, day, expected) in [
+            (Comparison, Training, Comparison),
+            (Comparison, Validation, Comparison),
+            (Validation, Training, Validation),
+            (Training, Validation, Validation),
+            (Training, Comparison, Comparison),
+            (Training, Training, Training),
+        ] {
+            let drawn = random_network(network, 7).draw(seed(day));
+            assert_eq!(drawn.purpose(), expected, "{network:?}, {day:?}");
+        }
+        let paper = Network::shipped("paper").expect("a shipped network");
+        for purpose in Purpose::ALL {
+            assert_eq!(paper.draw(seed(purpose)).purpose(), purpose);
         }
     }
 

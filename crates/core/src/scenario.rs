@@ -7,7 +7,8 @@
 use std::ops::Deref;
 
 use crate::{
-    ChargeCurve, Charging, Disturbances, Fares, Matrix, Route, Time, TypeIx, VertiportIx, whole_mwh,
+    ChargeCurve, Charging, Disturbances, Fares, Matrix, Purpose, Route, Time, TypeIx, VertiportIx,
+    drawn_for, purpose_of, whole_mwh,
 };
 
 /// When decisions are taken, and how long each part of a flight takes apart from cruise and
@@ -168,6 +169,17 @@ pub struct Day {
     pub energy_price_usd: Vec<f64>,
     /// The disturbances of the day.
     pub disturbances: Disturbances,
+}
+
+impl Day {
+    /// The purpose of the day: that of its seed, or that of its network if the network was drawn
+    /// for a stricter one. A training seed gives a comparison day on a comparison network.
+    pub fn purpose(&self) -> Purpose {
+        let of_seed = purpose_of(self.seed);
+        let network = self.name.strip_suffix(&format!("-{}", self.seed));
+        let of_network = network.and_then(drawn_for);
+        of_network.map_or(of_seed, |purpose| purpose.stricter(of_seed))
+    }
 }
 
 /// A checked day: shapes agree, numbers are finite and within bounds, ids are unique, no vertiport

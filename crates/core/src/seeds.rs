@@ -37,7 +37,7 @@ pub enum Purpose {
 }
 
 impl Purpose {
-    /// All purposes.
+    /// All purposes, the strictest first.
     pub const ALL: [Self; 3] = [Self::Comparison, Self::Validation, Self::Training];
 
     /// Its name.
@@ -47,6 +47,14 @@ impl Purpose {
             Self::Validation => "validation",
             Self::Training => "training",
         }
+    }
+
+    /// The stricter of two purposes: comparison before validation before training. A day of both
+    /// must not be used for anything that one of them forbids.
+    #[must_use]
+    pub fn stricter(self, other: Self) -> Self {
+        let both = [self, other];
+        Self::ALL.into_iter().find(|purpose| both.contains(purpose)).expect("it is one of all")
     }
 
     /// The purpose with this name.
@@ -134,19 +142,25 @@ impl DaySeed {
         self.0
     }
 
-    /// The purpose that the day is drawn for.
+    /// The purpose that the seed belongs to. A day of it may have a stricter one, that of its
+    /// network ([`Day::purpose`](crate::Day::purpose)).
     pub fn purpose(self) -> Purpose {
-        match self.0 {
-            ..VALIDATION => Purpose::Comparison,
-            VALIDATION..TRAINING => Purpose::Validation,
-            TRAINING.. => Purpose::Training,
-        }
+        purpose_of(self.0)
     }
 }
 
 impl fmt::Display for DaySeed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
+    }
+}
+
+/// The purpose that a seed belongs to.
+pub(crate) fn purpose_of(seed: u64) -> Purpose {
+    match seed {
+        ..VALIDATION => Purpose::Comparison,
+        VALIDATION..TRAINING => Purpose::Validation,
+        TRAINING.. => Purpose::Training,
     }
 }
 

@@ -25,11 +25,26 @@ def warn_of_comparison(split: str | None) -> None:
         _warn_once()
 
 
+def warn_of_network(network: Network, split: Split) -> None:
+    """Warns once, if a network that policies are compared by is the source of days for something else."""
+    if network.split == "comparison" and split != "comparison":
+        _warn_once_of_networks()
+
+
 @functools.cache
 def _warn_once() -> None:
     warnings.warn(
         "these are comparison days, by which policies are judged: learn from those of "
         'split="training", and choose settings by "validation"',
+        stacklevel=5,
+    )
+
+
+@functools.cache
+def _warn_once_of_networks() -> None:
+    warnings.warn(
+        "this is a comparison network, by which policies are judged, so all its days are comparison days: "
+        'learn from "random" or "random-training:7", and choose settings by "random-validation:7"',
         stacklevel=5,
     )
 
@@ -41,8 +56,11 @@ def days_of(networks: NetworksChoice, split: Split) -> tuple[Days, Network | Non
         return Days(networks, split), None
     if isinstance(networks, (str, os.PathLike, Network, Mapping)):
         network = _network(networks)
+        warn_of_network(network, split)
         return Days([network], split), network
     listed = [_network(network) for network in networks]
+    for network in listed:
+        warn_of_network(network, split)
     return Days(listed, split), listed[0] if len(listed) == 1 else None
 
 

@@ -12,7 +12,9 @@ use vertifleet_study::competitor::Selection;
 use vertifleet_study::{ComparisonReport, OwnDays};
 
 use crate::args::CompareArguments;
-use crate::commands::{claim_report, command, find_network, reads_models, warn_unserved_days};
+use crate::commands::{
+    claim_report, command, find_network, reads_models, warn_of_purpose, warn_unserved_days,
+};
 use crate::failure::Failure;
 use crate::interrupt::end_on_interrupt;
 use crate::output::{print, warn};
@@ -70,6 +72,7 @@ fn comparison(
         )
     };
     let network = find_network(name, outputs)?;
+    warn_of_purpose(&network, arguments.split);
     let drawn = DrawnDays { purpose: arguments.split, first: seed, days };
     Ok(Comparison::new(&network, &selection, drawn, bound_step, stop)?)
 }

@@ -11,7 +11,7 @@ use vertifleet_learn::{
 use vertifleet_progress::Bar;
 
 use crate::args::TrainArguments;
-use crate::commands::{resolve_network, warn_unserved_days};
+use crate::commands::{resolve_network, warn_of_purpose, warn_unserved_days};
 use crate::failure::Failure;
 use crate::interrupt::stop_on_interrupt;
 use crate::output::print;
@@ -19,6 +19,9 @@ use crate::output::print;
 pub(crate) fn run(arguments: &TrainArguments) -> Result<ExitCode, Failure> {
     let mut outputs = Outputs::new(arguments.force);
     let world = resolve_network(&arguments.network, &mut outputs)?;
+    if let World::Network(network) = &world {
+        warn_of_purpose(network, Purpose::Training);
+    }
     // The first training day stands for all of them in the warnings.
     let seed = DaySeed::training(arguments.seed, 0)?;
     warn_unserved_days([&world.network(Purpose::Training, seed.get()).draw(seed)]);
