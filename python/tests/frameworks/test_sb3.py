@@ -300,7 +300,7 @@ def test_what_the_program_would_not_do_is_not_exported(tmp_path):
     with pytest.raises(Error, match="VecNormalize") as error:
         export(model, tmp_path / "mine.safetensors", network=Network("paper"))
     assert error.value.code == "V451"
-    model = MaskablePPO(GcapsPolicy, FleetVecEnv("random:7", 2), n_steps=8, batch_size=16)
+    model = MaskablePPO(GcapsPolicy, FleetVecEnv("random-training:7", 2), n_steps=8, batch_size=16)
     with pytest.raises(Error, match="trained on network"):
         export(model, tmp_path / "mine.safetensors", network=Network("paper"))
 
@@ -428,6 +428,28 @@ def test_evaluations_report_the_reward_of_the_day_with_masks_or_without(tmp_path
             warnings.simplefilter("error")
             mean, _ = evaluate(model, days, n_eval_episodes=1)
         assert mean == pytest.approx(expected, rel=1e-5)
+
+
+def test_logs_and_evaluations_report_the_callers_own_reward(tmp_path):
+    def decided(view, outcome):
+        assert view.decision.time_s == outcome["time_s"]
+        return 1.0
+
+    days = FleetVecEnv(NETWORK, 2, decided, reward_scale=0.5)
+    for _ in range(2):
+        _, rewards, over, infos = play_until_one_is_over(days)
+        for info in (infos[day] for day in np.flatnonzero(over)):
+            assert info["episode"]["r"] == info["episode"]["l"] > 100
+            assert info["summary"]["reward"] < 1.0
+        assert (rewards == 0.5).all()
+    looking = MaskableEvalCallback(
+        FleetVecEnv(NETWORK, 2, decided), n_eval_episodes=2, eval_freq=32, verbose=0, deterministic=True
+    )
+    model = learner("mlp", FleetVecEnv(NETWORK, 2, decided))
+    model.learn(64, callback=looking)
+    assert looking.last_mean_reward > 100
+    export(model, tmp_path / "own.safetensors")
+    assert vertifleet.Model.read(tmp_path / "own.safetensors").header["settings"] is None
 
 
 def test_an_evaluation_callback_reports_the_reward_of_the_day():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from gymnasium.vector import AutoresetMode
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from vertifleet import Network
     from vertifleet._compare import Split
+    from vertifleet.envs.arguments import Reward
     from vertifleet.envs.observing import ObservationChoice
 
 
@@ -30,7 +31,9 @@ class FleetVecEnv(VecEnv):
     Args:
         network: the network or its name.
         num_envs: number of days in parallel.
-        reward: "terminal", all of it at the end of the day, or "dense", each flight's share at its decision.
+        reward: "terminal", all of it at the end of the day, "dense", each flight's share at its decision, or
+            a function, as in `FleetEnv`. The logs, and an evaluation such as that of `EvalCallback`, take the
+            sum of these rewards over the day.
         reward_scale: factor of the rewards that are learned from; logs show the reward itself.
         threads: number of threads that advance the days; all cores by default.
         observation: the observation, as in `FleetEnv`. `GcapsPolicy` and `MlpPolicy` read "paper".
@@ -41,7 +44,7 @@ class FleetVecEnv(VecEnv):
         self,
         network: Network | str,
         num_envs: int,
-        reward: Literal["terminal", "dense"] = "terminal",
+        reward: Reward = "terminal",
         reward_scale: float = 1.0,
         threads: int | None = None,
         observation: ObservationChoice = "paper",
@@ -63,6 +66,7 @@ class FleetVecEnv(VecEnv):
         self._actions = np.zeros(num_envs, dtype=np.int64)
         self._masks = np.ones((num_envs, 1), dtype=np.bool_)
         self._decisions = np.zeros(num_envs, dtype=np.int64)
+        self._returns = np.zeros(num_envs)
         super().__init__(num_envs, self.days.single_observation_space, self.days.single_action_space)
 
     def reset(self) -> VecEnvObs:
@@ -73,6 +77,7 @@ class FleetVecEnv(VecEnv):
         self._reset_seeds()
         self._reset_options()
         self._decisions[:] = 0
+        self._returns[:] = 0.0
         return self._show(observations)
 
     def step_async(self, actions: NDArray[np.int64]) -> None:
@@ -83,18 +88,22 @@ class FleetVecEnv(VecEnv):
         """Carries the decisions out; observations stay valid until the step after next."""
         observations, rewards, over, _, told = self.days.step(self._actions)
         self._decisions += 1
+        self._returns += rewards
         infos: list[dict[str, Any]] = [{"invalid_action": held} for held in told["invalid_action"].tolist()]
         for day in np.flatnonzero(over).tolist():
             end = told["final_info"]
             summary = {name: column[day].item() for name, column in end["summary"].items() if name[0] != "_"}
+            # The summary's reward is the paper's, which an own reward is not.
+            earned = float(self._returns[day]) if callable(self.reward) else summary["reward"]
             infos[day] = {
                 "invalid_action": bool(end["invalid_action"][day]),
                 "summary": summary,
                 "terminal_observation": told["final_obs"][day],
                 "TimeLimit.truncated": False,
-                "episode": {"r": summary["reward"], "l": int(self._decisions[day])},
+                "episode": {"r": earned, "l": int(self._decisions[day])},
             }
         self._decisions[over] = 0
+        self._returns[over] = 0.0
         return self._show(observations), (self.reward_scale * rewards).astype(np.float32), over, infos
 
     def _show(self, observations: VecEnvObs) -> VecEnvObs:
