@@ -373,6 +373,47 @@ def test_texts_in_infos_survive_a_conversion_to_tensors() -> None:
     assert float(info["summary"]["profit_usd"]) == pytest.approx(profit_usd, rel=1e-6)
 
 
+def test_texts_and_objects_in_infos_of_a_batch_survive_a_conversion_to_tensors() -> None:
+    torch = pytest.importorskip("torch")
+    pytest.importorskip("array_api_compat")
+    from gymnasium.wrappers.vector import NumpyToTorch
+
+    batch = FleetVectorEnv(2, autoreset_mode="SameStep")
+    env = NumpyToTorch(batch)
+    observation, info = env.reset(seed=1)
+    assert isinstance(observation["nodes"], torch.Tensor)
+    assert info["day"].tolist() == [day.name for day in batch.scenarios()]
+    ended = 0
+    while ended < 2:
+        observation, reward, over, _, info = env.step(info["action_mask"].to(torch.int64).argmax(1))
+        assert isinstance(reward, torch.Tensor)
+        for day in over.nonzero().flatten().tolist():
+            ended += 1
+            assert isinstance(info["final_obs"][day]["nodes"], torch.Tensor)
+            assert info["final_info"]["summary"]["profit_usd"][day] != 0
+            assert info["day"][day] == batch.scenarios()[day].name
+
+
+def test_a_reset_takes_a_scenario_or_a_number() -> None:
+    day = vertifleet.Network("paper").draw(7, "training")
+    options = {"scenario": day, "number": 7}
+    for env in (FleetEnv(), FleetVectorEnv(2)):
+        with pytest.raises(vertifleet.Error, match="not both"):
+            env.reset(options=options)
+
+
+def test_a_copy_shares_the_source_of_its_days() -> None:
+    env = FleetEnv()
+    env.reset(seed=3)
+    for how in (copy.copy, copy.deepcopy):
+        other = how(env)
+        assert other._days is env._days
+        assert other.np_random is not env.np_random
+        assert other.np_random.bit_generator.state == env.np_random.bit_generator.state
+        assert other.np_random.spawn(1)[0].integers(2**60) == how(env).np_random.spawn(1)[0].integers(2**60)
+        assert other.reset()[1]["day"] == how(env).reset()[1]["day"]
+
+
 def test_a_view_lists_its_members() -> None:
     env = FleetEnv("paper")
     env.reset(seed=1)

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import gymnasium
+import numpy as np
+from numpy.typing import NDArray
 
 from vertifleet.envs.fleet import FleetEnv
 from vertifleet.envs.fleet_vector import FleetVectorEnv
@@ -37,14 +41,28 @@ def register() -> None:
 def _keep_texts() -> None:
     """Makes Gymnasium's wrappers for PyTorch and other arrays leave texts in infos unchanged.
 
-    They convert every iterable, element by element, and the elements of a text are texts. The wrappers of
-    Gymnasium 1.1 have no option for this.
+    They convert every iterable, element by element, and the elements of a text are texts. They hand every
+    array to the other library, which refuses arrays of texts and of other objects. The wrappers have no
+    option for either.
     """
     try:
         from gymnasium.wrappers.array_conversion import array_conversion
     except (ImportError, gymnasium.error.DependencyNotInstalled):
         return  # Without their dependencies, these wrappers cannot be used.
+    of_numbers = array_conversion.dispatch(np.ndarray)
+
+    def converted(array: NDArray[Any], xp: Any, device: Any = None) -> Any:
+        if array.dtype.kind in "US":
+            return array
+        if array.dtype != object:
+            return of_numbers(array, xp, device)
+        others = np.empty(array.shape, object)
+        for place in np.ndindex(array.shape):
+            others[place] = array_conversion(array[place], xp, device)
+        return others
+
     array_conversion.register(str, _kept)
+    array_conversion.register(np.ndarray, converted)
 
 
 def _kept(text: str, xp: object, device: object = None) -> str:  # noqa: ARG001
