@@ -347,3 +347,34 @@ def test_a_batch_is_used_by_one_thread_at_a_time() -> None:
     assert ["two threads at once" in str(error) for error in found] == [True]
     play()
     assert len(found) == 1
+
+
+def test_a_reset_plays_the_days_with_the_numbers_that_are_given() -> None:
+    batch, paper = FleetVectorEnv(3, copy=False), vertifleet.Network("paper")
+
+    def names(options: dict[str, Any] | None = None, seed: int | None = None) -> list[str]:
+        return list(batch.reset(seed=seed, options=options)[1]["day"])
+
+    def day(number: int) -> str:
+        return paper.draw(number, "training").name
+
+    first, second = names(seed=5), names()
+    assert names(seed=5) == first
+    assert names({"number": 7}) == [day(7)] * 3
+    assert names() == second, "a given number draws none"
+    assert names({"number": [1, 2, 3]}) == names({"number": np.array([1, 2, 3])}) == [day(1), day(2), day(3)]
+    mask = np.array([False, True, False])
+    names({"number": 4, "reset_mask": mask})
+    assert [one.name for one in batch.scenarios()] == [day(1), day(4), day(3)]
+    observation, _ = batch.reset(options={"number": 7})
+    expected, _ = FleetEnv().reset(options={"number": 7})
+    assert all(np.array_equal(observation[name][2], part) for name, part in expected.items())
+
+
+@pytest.mark.parametrize("number", [-1, 2**64, 1.5, True, "7", [1, 2], [1, 2, -3], None])
+def test_numbers_of_days_are_whole_numbers_one_or_one_for_each(number: Any) -> None:
+    batch = FleetVectorEnv(3)
+    with pytest.raises(vertifleet.Error, match="option number"):
+        batch.reset(options={"number": number})
+    with pytest.raises(vertifleet.Error, match="V118"):
+        batch.reset(options={"number": 2**63})

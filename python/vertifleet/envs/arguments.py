@@ -33,7 +33,24 @@ def number_of(options: Mapping[str, Any]) -> int | None:
     """The number of a day in the options of a reset."""
     if "number" not in options:
         return None
-    number = whole("option number", options["number"])
+    return _number(options["number"])
+
+
+def numbers_of(options: Mapping[str, Any], days: int) -> NDArray[np.uint64] | None:
+    """The number of the day of each of many environments, if the options have one for all or one for each."""
+    if "number" not in options:
+        return None
+    given = options["number"]
+    if isinstance(given, np.ndarray):
+        given = given.tolist()
+    listed = given if isinstance(given, (list, tuple)) else [given] * days
+    if len(listed) != days:
+        raise Error("V451", f"option number must be one or {days} whole numbers, found {len(listed)}")
+    return np.array([_number(number) for number in listed], np.uint64)
+
+
+def _number(given: Any) -> int:
+    number = whole("option number", given)
     if not 0 <= number < 2**64:
         raise Error("V451", f"option number must be a whole number from 0, found {number}")
     return number
@@ -109,6 +126,8 @@ def options_of(options: Any, *taken: str, many: bool = False) -> Mapping[str, An
     for name in options:
         if name not in taken:
             raise Error("V451", f"a reset has no option {name!r}", f"it takes {', '.join(taken)}")
+    if "number" in options and options.get("scenario") is not None:
+        raise Error("V451", "a reset takes the option scenario or the option number, not both")
     scenario = options.get("scenario")
     listed = (
         many and isinstance(scenario, (list, tuple)) and all(isinstance(day, Scenario) for day in scenario)

@@ -22,6 +22,7 @@ from vertifleet.envs.arguments import (
     autoreset_of,
     count_of,
     mask_of,
+    numbers_of,
     options_of,
     reward_of,
     scenarios_of,
@@ -96,11 +97,13 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         Args:
             seed: environment i gets seed + i, or the i-th of a list or array.
             options: "reset_mask" (array of bool [num_envs]) selects the environments to reset; "scenario" is
-                a day that they all play instead of drawn ones, or a list with a day for each environment.
+                a day that they all play instead of drawn ones, or a list with a day for each environment;
+                "number" is the number of a day that they all play, or a list with a number for each.
 
         Raises:
             Error: V451 for a seed that is not a whole number, other options, a mask that is not valid or
-                selects no environment, or a day with another number of vertiports than the network.
+                selects no environment, or a day with another number of vertiports than the network; V118 for
+                a number that no day has.
         """
         with self._alone:
             return self._reset(seed, options)
@@ -109,12 +112,14 @@ class FleetVectorEnv(VectorEnv[Any, NDArray[np.int64], NDArray[Any]]):
         self, seed: int | Sequence[int | None] | None, options: dict[str, Any] | None
     ) -> tuple[Any, Info]:
         self._check_open()
-        asked = options_of(options, "reset_mask", many=True)
+        asked = options_of(options, "reset_mask", "number", many=True)
         scenarios = scenarios_of(asked, self.num_envs)
+        given = numbers_of(asked, self.num_envs)
         which = mask_of(asked, self.num_envs)
         self._seed(seeds_of(seed, self.num_envs), which)
-        self._latest = self._batch.reset(which, self._numbers, scenarios)
-        if scenarios is None:
+        numbers = self._numbers if given is None else given
+        self._latest = self._batch.reset(which, numbers, scenarios)
+        if scenarios is None and given is None:
             self._draw(which)
         info = self._info(np.zeros(self.num_envs, np.bool_), which)
         self._add_days(info, which)
