@@ -65,6 +65,7 @@ class FleetAEC(Copied, AECEnv[str, dict[str, Any], int]):
     metadata: ClassVar[dict[str, Any]] = METADATA | {"name": "fleet_v0", "is_parallelizable": False}
     _never_changes = (
         "network",
+        "_days",
         "_observing",
         "_state",
         "possible_agents",

@@ -6,6 +6,8 @@ import copy
 import threading
 from typing import Any, ClassVar, TypeVar
 
+import numpy as np
+
 from vertifleet._errors import Error
 
 Playing = TypeVar("Playing", bound="Copied")
@@ -14,8 +16,8 @@ Playing = TypeVar("Playing", bound="Copied")
 class Copied:
     """An environment whose copies, deep or shallow, play on independently.
 
-    They share immutable members: copying a network means parsing its file's text again, which takes longer
-        than many decisions.
+    They share immutable members: copying the source of the days means parsing the text of its network file
+    again, which takes longer than many decisions.
     """
 
     _never_changes: ClassVar[tuple[str, ...]]
@@ -25,13 +27,38 @@ class Copied:
         return copy.deepcopy(self)
 
     def __deepcopy__(self: Playing, memo: dict[int, Any]) -> Playing:
-        members = vars(self)
         other = object.__new__(type(self))
-        # `deepcopy` does not copy objects that are in the memo.
-        memo |= {id(members[name]): members[name] for name in self._never_changes if name in members}
         memo[id(self)] = other
-        vars(other).update(copy.deepcopy(members, memo))
+        for name, member in vars(self).items():
+            if name in self._never_changes:
+                # `deepcopy` does not copy objects that are in the memo.
+                memo[id(member)] = member
+        for name, member in vars(self).items():
+            kept = name in self._never_changes
+            vars(other)[name] = member if kept else _copied(member, memo)
         return other
+
+
+def _copied(member: Any, memo: dict[int, Any]) -> Any:
+    """A deep copy. `deepcopy` takes longer for a generator than for the rest of an environment, since it
+    seeds the new one from the operating system before it sets its state.
+    """
+    if type(member) is not np.random.Generator:
+        return copy.deepcopy(member, memo)
+    bits = member.bit_generator
+    seeds = bits.seed_seq
+    if type(seeds) is not np.random.SeedSequence:
+        return copy.deepcopy(member, memo)
+    same = np.random.SeedSequence(
+        seeds.entropy,
+        spawn_key=seeds.spawn_key,
+        pool_size=seeds.pool_size,
+        n_children_spawned=seeds.n_children_spawned,
+    )
+    others = type(bits)(same)
+    others.state = bits.state
+    memo[id(member)] = generator = np.random.Generator(others)
+    return generator
 
 
 class Alone:

@@ -45,7 +45,7 @@ class FleetEnv(Copied, gymnasium.Env[Any, np.int64]):
 
     metadata: dict[str, Any] = METADATA
     _spec: EnvSpec | None = None
-    _never_changes = ("network", "_observing", "observation_space", "action_space", "_spec")
+    _never_changes = ("network", "_days", "_observing", "observation_space", "action_space", "_spec")
 
     def __init__(
         self,
