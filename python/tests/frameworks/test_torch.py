@@ -1,6 +1,7 @@
 """The networks in PyTorch: their outputs, their initial weights and their decisions."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -11,7 +12,18 @@ torch = pytest.importorskip("torch")
 
 from torch.nn.functional import layer_norm, relu  # noqa: E402
 
-from vertifleet.torch import Gcaps, GcapsFull, GcapsX, Mlp, MlpFull, act, load, masked, scores  # noqa: E402
+from vertifleet.torch import (  # noqa: E402
+    Decisions,
+    Gcaps,
+    GcapsFull,
+    GcapsX,
+    Mlp,
+    MlpFull,
+    act,
+    load,
+    masked,
+    scores,
+)
 
 VERTIPORTS = 5
 SMALL = {
@@ -378,3 +390,19 @@ def test_the_twin_of_gcaps_x_chooses_as_the_program_does(network, tmp_path):
     found = scores(twin, batch)
     (-found[found > -torch.inf].log_softmax(0)[0]).backward()
     assert any(parameter.grad is not None and parameter.grad.any() for parameter in twin.parameters())
+
+
+def test_decisions_of_a_file_are_writable_tensors_with_its_numbers(tmp_path):
+    pytest.importorskip("pyarrow")
+    recorded = vertifleet.dataset("greedy", 1, observation="paper")
+    recorded.write(tmp_path / "greedy.parquet")
+    read = vertifleet.Dataset.read(tmp_path / "greedy.parquet")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        decisions = Decisions(read)
+    every = decisions[torch.arange(len(decisions))]
+    for name, array in (
+        recorded.observation | {"action": recorded.action, "reward": recorded.reward}
+    ).items():
+        np.testing.assert_array_equal(every[name].numpy(), array)
+    decisions[0]["action"] += 1

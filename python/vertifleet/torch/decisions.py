@@ -29,7 +29,12 @@ class Decisions(torch.utils.data.Dataset[dict[str, Tensor]]):
         arrays |= {"action": dataset.action, "reward": dataset.reward, "over": dataset.over}
         if dataset.values is not None:
             arrays["values"] = dataset.values
-        self._tensors = {name: torch.as_tensor(np.ascontiguousarray(array)) for name, array in arrays.items()}
+        # Arrays that were read from a file are read-only. PyTorch has no such tensors, so they are
+        # copied.
+        self._tensors = {
+            name: torch.as_tensor(np.require(array, requirements=("C_CONTIGUOUS", "WRITEABLE")))
+            for name, array in arrays.items()
+        }
 
     def __len__(self) -> int:
         return len(self._tensors["action"])
