@@ -210,7 +210,14 @@ fn tests(summary: &ComparisonReport) -> Section {
     };
     let table = Table::new(["first - second", "difference, $", "t", "df", "p", "first ahead"])
         .with_rows(summary.comparisons.iter().map(row));
-    Section::of_table("paired t-tests of the daily profit, two-sided", table)
+    let section = Section::of_table("paired t-tests of the daily profit, two-sided", table);
+    if summary.comparisons.len() < 2 {
+        return section;
+    }
+    section.with_note(format!(
+        "p is not corrected for the number of tests: of {} tests of equal policies, one in twenty has p < 0.05",
+        summary.comparisons.len()
+    ))
 }
 
 fn trainings(summary: &ComparisonReport) -> Section {
