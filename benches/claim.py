@@ -173,6 +173,9 @@ def table(shares: Shares, world: str) -> str:
         others = " | ".join(against(name, reference) for reference in (graph, plain))
         lines.append(f"| {NETWORKS[name]} | {means_of(shares[world, name])} | {others} |")
     lines.append(f"| `greedy` | | {shares[world, 'greedy'].mean():.2f} | | |")
+    if (plain, graph) in differences:
+        _, _, p_value = differences[plain, graph]
+        lines += ["", f"{NETWORKS[plain]}, against {NETWORKS[graph]}, uncorrected: p = {p_value:.3f}"]
     lines += ["", "Added when the results were known:", ""]
     lines.extend(f"- {NETWORKS[one]}, against {NETWORKS[other]}: {against(one, other)}" for one, other in AFTERWARDS)
     return "\n".join(lines)
