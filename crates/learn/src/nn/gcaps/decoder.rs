@@ -1,7 +1,7 @@
 //! The decoder (§IV.B, Eq. 20 and 21), the logits and the value.
 //!
 //! ```text
-//! q = psi W_Q + b_Q  (+ what the graph of the other aircraft adds, if there is one)
+//! q = psi W_Q + b_Q
 //! z = LayerNorm(q + MHA(q, E))
 //! y = LayerNorm(z + ReLU(z W_1 + b_1))
 //! logit_i = (y W_L) . E_i / sqrt(h)
