@@ -83,6 +83,7 @@ console-ready: prepare
 # failing writes.
 soak: prepare database
 	VERTIFLEET_KILLS=1000 cargo test $(CHECKED) --test cli serve_killed -- --nocapture
+	VERTIFLEET_WHOLE_GUIDE=1 cargo test $(CHECKED) --test cli guide::
 
 # The programs that the lints need besides Rust and Python.
 tools: prepare

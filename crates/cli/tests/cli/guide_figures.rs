@@ -79,6 +79,66 @@ fn the_first_hour_shows_the_output_of_its_commands() {
     assert_eq!(compared, 7, "the page still writes commands and what they print in this way");
 }
 
+/// The number that follows some words on a page, without the marks between its thousands.
+fn number_after(page: &str, words: &str) -> f64 {
+    let (_, rest) = page.split_once(words).unwrap_or_else(|| panic!("the page has {words}"));
+    let is_part = |c: char| c.is_ascii_digit() || c == '.' || c == ',';
+    let number: String =
+        rest.trim_start().chars().take_while(|&c| is_part(c)).filter(|&c| c != ',').collect();
+    number.trim_end_matches('.').parse().expect("a number")
+}
+
+#[test]
+fn the_sentences_of_the_first_hour_agree_with_what_it_shows() {
+    let page = page("first-hour.md");
+    let prose = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    let states = |sentence: &str| assert!(prose.contains(sentence), "{sentence}");
+    let (_, page) = page.split_once("## Fly it").expect("its day");
+    let (carried, profit_usd, bound_usd) = (
+        number_after(page, "  passengers "),
+        number_after(page, "  profit "),
+        number_after(page, "  upper bound "),
+    );
+    let (_, rest) = page.split_once("  passengers ").expect("a ledger");
+    let spilled = rest.split_whitespace().nth(1).expect("a column");
+    let wanted = carried + spilled.parse::<f64>().expect("a number");
+    let grouped = |number: f64| {
+        let whole = format!("{number:.0}");
+        let (thousands, rest) = whole.split_at(whole.len() - 3);
+        format!("{thousands},{rest}")
+    };
+    states(&format!("carry {} of {} passengers", grouped(carried), grouped(wanted)));
+    states(&format!("`greedy` earns ${}.", grouped(profit_usd)));
+    let (whole, cents) = (grouped(bound_usd.floor()), format!("{bound_usd:.2}"));
+    let cents = cents.rsplit('.').next().expect("cents").to_owned();
+    states(&format!("No schedule of this day earns more than ${whole}.{cents}."));
+    let share = 100.0 * profit_usd / bound_usd;
+    states(&format!("{share:.1} % of the bound, so at most {:.1} % of it", 100.0 - share));
+    let (_, prices) = page.split_once("with one more stand").expect("prices of stands");
+    let dearest = prices.lines().nth(1).and_then(|line| line.split_whitespace().next());
+    states(&format!("The stands of {} are the tightest limit", dearest.expect("a vertiport")));
+}
+
+#[test]
+fn the_first_hour_has_the_shares_of_the_benchmarks() {
+    let (page, benchmarks) =
+        (page("first-hour.md"), fs::read_to_string(shipped("docs/src/benchmarks.md")));
+    let prose = page.split_whitespace().collect::<Vec<_>>().join(" ");
+    let benchmarks = benchmarks.expect("it is there");
+    let (_, quality) = benchmarks.split_once("## Quality").expect("a section");
+    for policy in ["rolling", "prices", "greedy"] {
+        let row = quality.lines().find(|line| line.starts_with(&format!("| `{policy}`")));
+        let share = row.and_then(|row| row.split('|').nth(2)).expect("a share").trim();
+        let is_stated = [format!("`{policy}` has {share}"), format!("`{policy}` {share}")]
+            .map(|one| prose.contains(&one));
+        assert!(is_stated.contains(&true), "{policy} has {share}");
+    }
+    let (_, planner) = benchmarks.split_once("## Planner").expect("a section");
+    let row = planner.lines().find(|line| line.starts_with("| `paper`")).expect("a row");
+    let gap = row.split('|').nth(4).and_then(|cell| cell.split_whitespace().next());
+    assert!(prose.contains(&format!("{} % below the bound", gap.expect("a gap"))), "{gap:?}");
+}
+
 /// A whole number of dollars as the pages write it.
 fn dollars(amount: &Value) -> String {
     let whole = format!("{:.0}", amount.as_f64().expect("an amount"));

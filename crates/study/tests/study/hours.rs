@@ -11,7 +11,7 @@ use vertifleet_sim::{DayTotals, Simulation, Trace, TraceRow};
 use vertifleet_study::account::Account;
 use vertifleet_testkit::{Size, any_energy_day, with_energy};
 
-/// A second is cut into so many steps.
+/// Number of steps that a second is cut into.
 const STEPS: u32 = 8;
 /// A battery with less than this below its capacity is full, kWh.
 const FULL_KWH: f64 = 1e-6;
