@@ -2,7 +2,7 @@
 //! of numbers.
 
 use serde_json::Value;
-use vertifleet_core::{Network, TypeIx, VertiportIx};
+use vertifleet_core::{Coded, Network, TypeIx, VertiportIx};
 
 use super::ceiling::Headroom;
 use super::goal::Goal;
@@ -296,6 +296,13 @@ fn whole(number: f64) -> Option<u32> {
 fn dimensions_of(network: &Network, path: &str) -> Result<Vec<Dimension>, Error> {
     let is_counted = path.starts_with("fleet.") || path.starts_with("vertiports.");
     if !is_counted {
+        // A path that leads nowhere is mistyped, whatever could vary.
+        let trial = network.changed([(&path.to_owned(), &Value::from(1))]);
+        if let Err(error) = trial
+            && error.code().0 == 123
+        {
+            return Err(error.into());
+        }
         return Err(Error::Asked {
             rule: format!("{path:?} cannot vary in a search for a design"),
             hint: "only numbers of aircraft, stands and chargers can; give it one value, or vary it with `vertifleet sweep`",
@@ -372,7 +379,7 @@ fn default_dimensions(network: &Network, goal: Goal) -> Result<Vec<Dimension>, E
 
 #[cfg(test)]
 mod tests {
-    use vertifleet_core::Network;
+    use vertifleet_core::{Coded, Network};
 
     use super::{Counts, Space};
     use crate::size::Goal;
@@ -417,6 +424,15 @@ mod tests {
             "vertiports.*.latitude=1..3",
         ] {
             assert!(space(&[factor]).is_err(), "{factor}");
+        }
+        for (factor, code) in [
+            ("tarifs.fare_level=1..2", 123),
+            ("vertiport.JFK.stands=1..3", 123),
+            ("fleet.midnigth.count=1..3", 123),
+            ("tariffs.fare_level=1..2", 407),
+        ] {
+            let error = space(&[factor]).expect_err(factor);
+            assert_eq!(error.code().0, code, "{factor}: {error}");
         }
         let none = space(&["vertiports.*.chargers=1..3"]).expect_err("no chargers").to_string();
         assert!(none.contains("charged at every stand"), "{none}");
