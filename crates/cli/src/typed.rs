@@ -119,9 +119,34 @@ pub(crate) fn parse_seconds(text: &str) -> Result<Duration, String> {
     }
 }
 
+/// A number that is a share. The code that uses it checks its limits.
+pub(crate) fn parse_mode_share(text: &str) -> Result<f64, String> {
+    let percent = text.trim().strip_suffix('%').and_then(|number| number.trim().parse().ok());
+    if let Some(percent) = percent {
+        let percent: f64 = percent;
+        return Err(format!("expected a share from 0 to 1: {percent} % are {}", percent / 100.0));
+    }
+    text.parse().map_err(|_| "expected a share from 0 to 1, as 0.05 for 5 %".to_owned())
+}
+
 pub(crate) fn parse_share(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(share @ 0.0..=1.0) => Ok(share),
         _ => Err("expected a share from 0 to 1, as 0.03".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::parse_mode_share;
+
+    #[test]
+    fn a_share_in_percent_is_refused_with_the_share() {
+        for text in ["5%", " 5 %", "5.0%"] {
+            let problem = parse_mode_share(text).expect_err("percent");
+            assert_eq!(problem, "expected a share from 0 to 1: 5 % are 0.05");
+        }
+        assert_eq!(parse_mode_share("0.05"), Ok(0.05));
+        assert!(parse_mode_share("five").is_err_and(|problem| problem.contains("0.05 for 5 %")));
     }
 }

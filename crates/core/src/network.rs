@@ -59,7 +59,7 @@ pub struct Network {
     pub(crate) feature_scales: FeatureScales,
 }
 
-/// Reads the text of a network file with `read`, which gets the text, the file's folder and its name.
+/// Reads the text of a network file with `read`, which gets the text, the folder and the name.
 fn read_text<E>(
     path: &Path,
     read: impl FnOnce(&str, Option<&Path>, &str) -> Result<Network, E>,

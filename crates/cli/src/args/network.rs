@@ -6,7 +6,7 @@ use clap::{ArgGroup, Args, Subcommand};
 use vertifleet_import::{Date, NewVertiport, TimeFormat, TripValue, Weekdays};
 
 use super::{FORCE, NETWORK};
-use crate::typed::{parse_known, parse_pair, parse_vertiport};
+use crate::typed::{parse_known, parse_mode_share, parse_pair, parse_vertiport};
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum NetworkAction {
@@ -68,12 +68,13 @@ pub(crate) struct ImportArguments {
     /// charger_kw (the most power of a charger), busy; or GeoJSON points
     #[arg(long, value_name = "FILE")]
     pub(crate) vertiports: PathBuf,
-    /// Mean passengers: CSV or Parquet with period,from,to,passengers; a period is a time (06:00)
-    /// or an hour, and lasts until the next one of the table
+    /// Mean passengers: CSV or Parquet with period,from,to,passengers; a period is a time (06:00,
+    /// 6:00 AM, 06:00-07:00) or an hour, and lasts until the next one of the table. CSV may have a
+    /// column for each period or for each destination instead of the passengers
     #[arg(long, value_name = "FILE")]
     pub(crate) demand: Option<PathBuf>,
     /// Trip records, CSV or Parquet, with times and places, in the columns of common records, such
-    /// as those of New York's taxis; zones need --zones
+    /// as those of the taxis of New York and Chicago; zones need --zones
     #[arg(long, value_name = "FILE", num_args = 1..)]
     pub(crate) trips: Vec<PathBuf>,
     /// Columns of the trip records with other names, as pickup_time=began,passengers=riders; values
@@ -89,7 +90,7 @@ pub(crate) struct ImportArguments {
     #[arg(long, value_name = "MILES", allow_hyphen_values = true)]
     pub(crate) radius: Option<f64>,
     /// Share of the trips near vertiports that would fly [default: 0.01]
-    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, value_parser = parse_mode_share)]
     pub(crate) mode_share: Option<f64>,
     /// Distance to and from vertiports over which that share falls to 1/e, miles [default:
     /// infinite]
