@@ -22,6 +22,8 @@ mod misuse;
 mod misuses;
 mod own_days;
 mod own_network;
+#[cfg(unix)]
+mod piped_files;
 mod planning;
 mod serve_data;
 #[cfg(unix)]

@@ -1,5 +1,5 @@
 //! Trip records that are not what they seem: stray dates, exchanged days and months, exchanged
-//! axes of zones; and those of Chicago, whose columns have names of their own.
+//! axes of zones; and those of Chicago, whose columns have other names.
 
 use std::fmt::Write;
 
