@@ -3,8 +3,9 @@
 //!
 //! They differ in every member of a network file: 5 to 30 vertiports, 10 to 150 aircraft,
 //! distances, stands, seats, speeds, prices, and demand from half to ten times what the fleet could
-//! carry.
+//! carry. A third of those to learn from charge as needed (`random_network/charging.rs`).
 
+mod charging;
 mod city;
 mod places;
 
@@ -15,6 +16,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::{Network, Purpose};
 
+use charging::with_charging;
 pub use city::random_city;
 pub use places::{RANDOM_PLACES, random_places};
 
@@ -26,7 +28,8 @@ pub use places::{RANDOM_PLACES, random_places};
 /// others.
 pub fn random_network(purpose: Purpose, number: u64) -> Network {
     let text = text(purpose, number);
-    Network::from_toml(&text, "a random network").expect("every number drawn is within its bounds")
+    let network = Network::from_toml(&text, "a random network");
+    with_charging(network.expect("every number drawn is within its bounds"), purpose, number)
 }
 
 /// The text of the network file.

@@ -7,6 +7,7 @@
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
+use super::charging::with_charging;
 use super::{generator, put};
 use crate::{Network, Purpose};
 
@@ -22,7 +23,8 @@ const FIRST_HOUR: usize = 6;
 /// others.
 pub fn random_city(purpose: Purpose, number: u64) -> Network {
     let text = text(purpose, number);
-    Network::from_toml(&text, "a random city").expect("every number drawn is within its bounds")
+    let network = Network::from_toml(&text, "a random city");
+    with_charging(network.expect("every number drawn is within its bounds"), purpose, number)
 }
 
 /// The text of the network file.
