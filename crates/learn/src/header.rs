@@ -115,6 +115,7 @@ impl Header {
     /// Checks that the shape and the scales fit the kind of policy.
     fn check(&self) -> Result<(), String> {
         self.policy.check_graph()?;
+        self.policy.check_charge().map_err(|rule| format!("charge {rule}"))?;
         // Absurd sizes must be refused before any arithmetic with them.
         self.network_of_layers(1)?;
         if self.policy.fits_any_size() == self.shape.vertiports.is_some() {

@@ -98,8 +98,8 @@ impl Model {
     /// kinds always do.
     pub fn policy(&self, most_rolled_out: usize) -> Box<dyn Policy> {
         match self.header.policy.observation() {
-            Observation::Priced => Box::new(GcapsX::new(self, most_rolled_out)),
-            Observation::Paper | Observation::Full => Box::new(Learned::new(self)),
+            Observation::Priced { .. } => Box::new(GcapsX::new(self, most_rolled_out)),
+            Observation::Paper | Observation::Full { .. } => Box::new(Learned::new(self)),
         }
     }
 

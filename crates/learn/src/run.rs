@@ -115,8 +115,9 @@ impl TrainingRequest {
 
     fn begin(self, checkpoint: Option<&Path>) -> Result<Box<dyn TrainingRun>, Error> {
         self.settings.check()?;
-        let bad = |rule| Error::BadSetting { name: "adjacency".to_owned(), rule };
-        self.policy.check_graph().map_err(bad)?;
+        let bad = |name: &str, rule| Error::BadSetting { name: name.to_owned(), rule };
+        self.policy.check_graph().map_err(|rule| bad("adjacency", rule))?;
+        self.policy.check_charge().map_err(|rule| bad("charge", rule))?;
         let asked = RunIdentity {
             network: self.world.name(),
             network_fingerprint: network_fingerprint(&self.world)?,
@@ -138,7 +139,7 @@ impl TrainingRequest {
             Err(Error::BadSetting { name, rule })
         };
         let header = model.header();
-        if header.policy != self.policy {
+        if header.policy != self.policy && header.policy != self.policy.without_charge() {
             return bad("the weights must be of the same policy with the same sizes as the run");
         }
         if let Some(trained) = header.shape.vertiports
@@ -158,12 +159,17 @@ impl TrainingRequest {
         self.begin_with.as_ref().map(Model::sha256)
     }
 
-    /// The weights before the first step.
+    /// The weights before the first step. A run that observes charge may begin with weights that do
+    /// not: the weights of the new features are 0, so that it begins with the same decisions.
     pub(crate) fn first_params(&self, net: &NeuralNetwork) -> Vec<f32> {
-        match &self.begin_with {
-            Some(model) => model.params().to_vec(),
-            None => net.init(u64::from(self.seed)),
+        let Some(model) = &self.begin_with else { return net.init(u64::from(self.seed)) };
+        let mut params = Vec::with_capacity(net.layout().len());
+        for (before, now) in model.layout().tensors().iter().zip(net.layout().tensors()) {
+            // New features come after the others, and the inputs of a matrix are its rows.
+            params.extend(&model.params()[before.offset..][..before.len()]);
+            params.resize(params.len() + now.len() - before.len(), 0.0);
         }
+        params
     }
 }
 
@@ -202,8 +208,74 @@ pub(crate) fn check_finite(params: &[f32], update: u64) -> Result<(), Error> {
 
 #[cfg(test)]
 mod tests {
-    use super::check_finite;
-    use vertifleet_core::Coded;
+    use std::sync::Arc;
+
+    use vertifleet_core::{Coded, DaySeed, Network, World};
+
+    use super::{TrainingRequest, check_finite, sizes};
+    use crate::header::{FeatureShape, Header};
+    use crate::model::Model;
+    use crate::nn::NeuralNetwork;
+    use crate::settings::{TrainingSettings, set};
+    use crate::shipped::shipped;
+    use crate::validation::played;
+
+    /// A run with the features of charge that begins with the shipped weights of a kind.
+    fn with_charge(kind: &str) -> TrainingRequest {
+        let begin_with = shipped(kind, "paper").expect("shipped weights").model;
+        let mut policy = sizes(kind, Some(&begin_with)).expect("a kind");
+        let mut settings = TrainingSettings::preset(&policy, "default").expect("a preset");
+        set(&mut policy, &mut settings, [("charge", "true")]).expect("a setting");
+        TrainingRequest {
+            world: World::find("paper-quick").expect("a world"),
+            policy,
+            settings,
+            seed: 1,
+            begin_with: Some(begin_with),
+            commit: String::new(),
+        }
+    }
+
+    /// As-needed days too: the shipped weights do not read charge, and neither do these at first.
+    #[test]
+    fn a_run_with_the_features_of_charge_begins_with_the_decisions_of_weights_without_them() {
+        let seed = DaySeed::validation(1).expect("a seed");
+        let day = Network::shipped("paper-quick").expect("a shipped network").draw(seed);
+        let day = Arc::new(day);
+        for (kind, features) in [("gcaps-x", (27, 13)), ("gcaps-full", (40, 14))] {
+            let plan = with_charge(kind);
+            plan.check_begin().expect("weights that fit");
+            let shape = plan.policy.shape(8);
+            assert_eq!((shape.node_features, shape.aircraft_features), features);
+            let net = NeuralNetwork::new(plan.policy.clone(), shape).expect("sizes within bounds");
+            let shipped = plan.begin_with.clone().expect("shipped weights");
+            let header = Header {
+                policy: plan.policy.clone(),
+                shape: FeatureShape { vertiports: None, ..shape.into() },
+                ..shipped.header().clone()
+            };
+            let widened = Model::new(header, plan.first_params(&net)).expect("as many weights");
+            assert!(widened.params().len() > shipped.params().len());
+            let read = Model::from_bytes(&widened.to_bytes(), "memory").expect("a weight file");
+            assert_eq!(read.header().policy, plan.policy);
+            let [before, after] =
+                [&shipped, &read].map(|model| played(&mut *model.policy(1), &day));
+            assert_eq!(before, after);
+        }
+    }
+
+    #[test]
+    fn only_policies_that_can_observe_charge_read_it() {
+        let mut policy = sizes("gcaps", None).expect("a kind");
+        let mut settings = TrainingSettings::preset(&policy, "default").expect("a preset");
+        set(&mut policy, &mut settings, [("charge", "true")]).expect("a setting of the kind");
+        let plan = TrainingRequest { policy, settings, begin_with: None, ..with_charge("gcaps-x") };
+        let error = plan.start().err().expect("no such run").to_string();
+        assert!(error.contains("must be false for gcaps"), "{error}");
+        let mut plan = with_charge("gcaps-x");
+        let error = set(&mut plan.policy, &mut plan.settings, [("charge", "maybe")]);
+        assert!(error.expect_err("no value").to_string().contains("true or false"));
+    }
 
     #[test]
     fn a_diverging_run_returns_an_error() {

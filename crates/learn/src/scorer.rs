@@ -17,7 +17,7 @@
 use std::sync::Arc;
 
 use vertifleet_core::{FeatureScales, VertiportIx};
-use vertifleet_observe::{LOGITS_A_UNIT, Observation, PricedDecision, Writer};
+use vertifleet_observe::{LOGITS_A_UNIT, PricedDecision, Writer};
 use vertifleet_policy::{DayPrices, PricedChoice, Shortlist};
 use vertifleet_sim::{Decision, View};
 
@@ -64,7 +64,7 @@ impl Scorer {
     }
 
     fn adds_to_prices(&self) -> bool {
-        self.architecture.observation() == Observation::Priced
+        self.architecture.observation().is_priced()
     }
 
     /// Removes all decisions, and prepares for those of days with this many vertiports.

@@ -167,6 +167,11 @@ fn set_size(policy: &mut Architecture, name: &str, value: &str) -> Result<bool, 
             let of_graph = members(&sizes.graph);
             if has(&of_graph) {
                 sizes.graph = changed(of_graph, name, value)?;
+            } else if name == "charge" {
+                sizes.charge = value.parse().map_err(|_| Error::BadSetting {
+                    name: name.to_owned(),
+                    rule: format!("must be true or false, found {value:?}"),
+                })?;
             } else if name != "graph" && has(&members(sizes)) {
                 *sizes = with_member(sizes, name, value)?;
             } else {

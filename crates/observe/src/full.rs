@@ -169,13 +169,14 @@ impl Look<'_> {
         column::write(&AIRCRAFT, &aircraft, to);
     }
 
-    /// Writes the columns of the vertiports.
-    pub(crate) fn write_nodes(&self, to: &mut [f32]) {
+    /// Writes the columns of the vertiports into the first columns of their rows, which have
+    /// `stride` columns each.
+    pub(crate) fn write_nodes(&self, stride: usize, to: &mut [f32]) {
         let Self { view, decision, kind, .. } = *self;
         let unit_usd = self.board.unit_usd(kind);
         let period = view.demand_left_in(view.period());
         let vertiports = VertiportIx::all(self.around.len()).zip(self.around);
-        for ((at, around), row) in vertiports.zip(to.chunks_exact_mut(NODES.len())) {
+        for ((at, around), row) in vertiports.zip(to.chunks_exact_mut(stride)) {
             let neighbours = view.within_range(kind, at);
             let more = Outlook {
                 ahead: around.more,
@@ -186,7 +187,7 @@ impl Look<'_> {
             };
             let is_open = self.feasible.contains(at);
             let node = Node::of(view, decision, (at, around), unit_usd, is_open, more);
-            column::write(&NODES, &node, row);
+            column::write(&NODES, &node, &mut row[..NODES.len()]);
         }
     }
 

@@ -35,6 +35,7 @@
 )]
 
 mod board;
+mod charge;
 mod column;
 mod full;
 mod layout;

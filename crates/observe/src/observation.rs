@@ -7,7 +7,7 @@ use vertifleet_sim::{Decision, View};
 use crate::full::Edges;
 use crate::paper::Scales;
 use crate::priced::PricedDecision;
-use crate::{column, full, paper, priced};
+use crate::{charge, column, full, paper, priced};
 
 /// The observations of learned policies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,9 +15,15 @@ pub enum Observation {
     /// The paper's (§IV.A): the present alone, divided by the scales of the network file.
     Paper,
     /// The day with its bid prices.
-    Priced,
+    Priced {
+        /// Whether the features of charge come after the others.
+        charge: bool,
+    },
     /// The forecast and the fleet, without prices.
-    Full,
+    Full {
+        /// Whether the features of charge come after the others.
+        charge: bool,
+    },
 }
 
 /// The sizes of a network's features.
@@ -36,8 +42,10 @@ impl Observation {
     pub const fn shape(self, vertiports: usize) -> Shape {
         let (node_features, aircraft_features) = match self {
             Self::Paper => (2 * vertiports + 4, 2 * vertiports + 2),
-            Self::Priced => (priced::NODES.len(), priced::AIRCRAFT.len()),
-            Self::Full => (full::NODES.len(), full::AIRCRAFT.len()),
+            Self::Priced { charge } => {
+                with_charge(priced::NODES.len(), priced::AIRCRAFT.len(), charge)
+            }
+            Self::Full { charge } => with_charge(full::NODES.len(), full::AIRCRAFT.len(), charge),
         };
         Shape { vertiports, node_features, aircraft_features }
     }
@@ -45,12 +53,43 @@ impl Observation {
     /// The names of the features of a vertiport, and of those of the aircraft, in their order.
     /// Those of the paper have no names: most of them concern another vertiport each.
     pub fn names(self) -> [Vec<&'static str>; 2] {
-        match self {
-            Self::Paper => [Vec::new(), Vec::new()],
-            Self::Priced => [column::names(&priced::NODES), column::names(&priced::AIRCRAFT)],
-            Self::Full => [column::names(&full::NODES), column::names(&full::AIRCRAFT)],
+        let (mut names, has_charge) = match self {
+            Self::Paper => return [Vec::new(), Vec::new()],
+            Self::Priced { charge } => {
+                ([column::names(&priced::NODES), column::names(&priced::AIRCRAFT)], charge)
+            }
+            Self::Full { charge } => {
+                ([column::names(&full::NODES), column::names(&full::AIRCRAFT)], charge)
+            }
+        };
+        if has_charge {
+            names[0].extend(column::names(&charge::NODES));
+            names[1].extend(column::names(&charge::AIRCRAFT));
         }
+        names
     }
+
+    /// Whether bid prices are part of the observation.
+    pub const fn is_priced(self) -> bool {
+        matches!(self, Self::Priced { .. })
+    }
+
+    /// Whether the observation is that of policies without bid prices on any network.
+    pub const fn is_full(self) -> bool {
+        matches!(self, Self::Full { .. })
+    }
+
+    /// Whether the features of charge are part of the observation.
+    const fn has_charge(self) -> bool {
+        matches!(self, Self::Priced { charge: true } | Self::Full { charge: true })
+    }
+}
+
+const fn with_charge(nodes: usize, aircraft: usize, charge: bool) -> (usize, usize) {
+    if charge {
+        return (nodes + charge::NODES.len(), aircraft + charge::AIRCRAFT.len());
+    }
+    (nodes, aircraft)
 }
 
 /// A row that is being written; initially all zeros.
@@ -69,7 +108,11 @@ pub struct Row<'a> {
 
 /// Writes the observation of one kind of policy. It caches values of recent days.
 #[derive(Debug, Clone)]
-pub struct Writer(Eye);
+pub struct Writer {
+    eye: Eye,
+    /// The observation, whose number of features a row has.
+    observation: Observation,
+}
 
 #[derive(Debug, Clone)]
 enum Eye {
@@ -88,13 +131,14 @@ impl Writer {
         scales: Option<FeatureScales>,
         edges: Option<Edges>,
     ) -> Self {
-        Self(match observation {
+        let eye = match observation {
             Observation::Paper => {
                 Eye::Paper(Scales::from(scales.expect("the paper's observation has scales")))
             }
-            Observation::Priced => Eye::Priced(priced::Eye::default()),
-            Observation::Full => Eye::Full(full::Eye::default(), edges),
-        })
+            Observation::Priced { .. } => Eye::Priced(priced::Eye::default()),
+            Observation::Full { .. } => Eye::Full(full::Eye::default(), edges),
+        };
+        Self { eye, observation }
     }
 
     /// Writes the row of a decision. `priced` has the day's prices and the choices that the network
@@ -110,7 +154,12 @@ impl Writer {
         row: &mut Row<'_>,
     ) {
         let feasible = view.feasible(decision);
-        match &mut self.0 {
+        let stride = self.observation.shape(view.vertiports()).node_features;
+        if self.observation.has_charge() {
+            charge::write_nodes(view, decision, stride, row.nodes);
+            charge::write_aircraft(view, decision, row.aircraft);
+        }
+        match &mut self.eye {
             Eye::Paper(scales) => {
                 scales.write_nodes(row.nodes, view);
                 scales.write_aircraft(row.aircraft, decision, view);
@@ -119,8 +168,8 @@ impl Writer {
             Eye::Priced(eye) => {
                 let (of_day, listed) = priced.expect("the observation is made at prices");
                 let look = eye.look(PricedDecision::of(view, decision, of_day), listed);
-                look.write_nodes(row.nodes);
-                look.write_aircraft(row.aircraft);
+                look.write_nodes(stride, row.nodes);
+                look.write_aircraft(&mut row.aircraft[..priced::AIRCRAFT.len()]);
                 for choice in listed {
                     row.mask[choice.to.at()] = 1;
                 }
@@ -129,8 +178,8 @@ impl Writer {
             }
             Eye::Full(eye, edges) => {
                 let look = eye.look(view, decision, feasible);
-                look.write_nodes(row.nodes);
-                look.write_aircraft(row.aircraft);
+                look.write_nodes(stride, row.nodes);
+                look.write_aircraft(&mut row.aircraft[..full::AIRCRAFT.len()]);
                 if let Some(edges) = *edges {
                     look.write_edges(edges, view.vertiports(), row.edges);
                 }

@@ -83,8 +83,12 @@ pub enum Part {
     PricedNodes,
     PricedAircraft,
     PricedWorth,
+    PricedChargeNodes,
+    PricedChargeAircraft,
     FullNodes,
     FullAircraft,
+    FullChargeNodes,
+    FullChargeAircraft,
     DistanceEdges,
     ProfitEdges,
 }
@@ -144,12 +148,14 @@ const FLEET: &[Axis] = &[Axis::Aircraft];
 const PERIOD_PAIR: &[Axis] = &[Axis::Periods, Axis::Vertiports, Axis::Vertiports];
 const TYPE_PAIR: &[Axis] = &[Axis::Types, Axis::Vertiports, Axis::Vertiports];
 /// The features of learned policies, whose length does not depend on the number of vertiports.
-const PRICED: Shape = Observation::Priced.shape(0);
-const FULL: Shape = Observation::Full.shape(0);
+const PRICED: Shape = Observation::Priced { charge: false }.shape(0);
+const PRICED_CHARGE: Shape = Observation::Priced { charge: true }.shape(0);
+const FULL: Shape = Observation::Full { charge: false }.shape(0);
+const FULL_CHARGE: Shape = Observation::Full { charge: true }.shape(0);
 
 /// All parts, in the order of [`Part`].
 #[rustfmt::skip]
-const INFOS: [Info; 61] = [
+const INFOS: [Info; 65] = [
     info(Part::ActionMask, ("action_mask", Some("action_mask")), V, NONE, SHARE,
         "1 for each feasible choice; the deciding aircraft's own vertiport is hold"),
     info(Part::VertiportMask, ("vertiport_mask", None), V, NONE, SHARE,
@@ -264,10 +270,18 @@ const INFOS: [Info; 61] = [
         "the aircraft features of gcaps-x"),
     info(Part::PricedWorth, ("priced_worth", None), V, NONE, ANY,
         "worth of each choice of the shortlist at the bid prices, less that of the best, in the unit of gcaps-x's logits; 0 elsewhere"),
+    info(Part::PricedChargeNodes, ("priced_charge_nodes", None), &[Axis::Vertiports, Axis::Of(PRICED_CHARGE.node_features)], NONE, ANY,
+        "`priced_nodes`, and then the features of charge"),
+    info(Part::PricedChargeAircraft, ("priced_charge_aircraft", None), &[Axis::Of(PRICED_CHARGE.aircraft_features)], NONE, ANY,
+        "`priced_aircraft`, and then the features of charge"),
     info(Part::FullNodes, ("full_nodes", None), &[Axis::Vertiports, Axis::Of(FULL.node_features)], NONE, ANY,
         "the node features of gcaps-full and mlp-full; the first is 1 for each feasible choice"),
     info(Part::FullAircraft, ("full_aircraft", None), &[Axis::Of(FULL.aircraft_features)], NONE, ANY,
         "the aircraft features of gcaps-full and mlp-full"),
+    info(Part::FullChargeNodes, ("full_charge_nodes", None), &[Axis::Vertiports, Axis::Of(FULL_CHARGE.node_features)], NONE, ANY,
+        "`full_nodes`, and then the features of charge"),
+    info(Part::FullChargeAircraft, ("full_charge_aircraft", None), &[Axis::Of(FULL_CHARGE.aircraft_features)], NONE, ANY,
+        "`full_aircraft`, and then the features of charge"),
     info(Part::DistanceEdges, ("distance_edges", None), PAIR, NONE, SHARE,
         "1 / (1 + hours of flight), for the deciding aircraft's type; 0 out of range"),
     info(Part::ProfitEdges, ("profit_edges", None), PAIR, NONE, (0.0, 3.0),
@@ -305,16 +319,36 @@ impl Part {
         self.info().axes.iter().map(|axis| axis.len(sizes)).product()
     }
 
+    /// Number of entries along the last axis of a part of features.
+    pub(crate) fn columns(self) -> usize {
+        match self.info().axes.last() {
+            Some(&Axis::Of(columns)) => columns,
+            _ => unreachable!("features have an axis of known length"),
+        }
+    }
+
     /// Whether the part contains bid prices, which take time to find.
     pub fn is_priced(self) -> bool {
-        matches!(self, Self::PricedNodes | Self::PricedAircraft | Self::PricedWorth)
+        matches!(
+            self,
+            Self::PricedNodes
+                | Self::PricedAircraft
+                | Self::PricedWorth
+                | Self::PricedChargeNodes
+                | Self::PricedChargeAircraft
+        )
     }
 
     /// Whether the part is observed by policies of the full observation.
     pub fn is_of_the_full(self) -> bool {
         matches!(
             self,
-            Self::FullNodes | Self::FullAircraft | Self::DistanceEdges | Self::ProfitEdges
+            Self::FullNodes
+                | Self::FullAircraft
+                | Self::FullChargeNodes
+                | Self::FullChargeAircraft
+                | Self::DistanceEdges
+                | Self::ProfitEdges
         )
     }
 
@@ -369,6 +403,7 @@ impl Part {
                     | Self::ClosedAhead
                     | Self::EnergyPrice
                     | Self::FullNodes
+                    | Self::FullChargeNodes
             )
     }
 }

@@ -217,8 +217,9 @@ impl Look<'_> {
         column::write(&AIRCRAFT, &aircraft, to);
     }
 
-    /// Writes the columns of the vertiports.
-    pub(crate) fn write_nodes(&self, to: &mut [f32]) {
+    /// Writes the columns of the vertiports into the first columns of their rows, which have
+    /// `stride` columns each.
+    pub(crate) fn write_nodes(&self, stride: usize, to: &mut [f32]) {
         let PricedDecision { view, decision, prices, unit_usd } = self.scene;
         let Decision { time, at: from, .. } = *decision;
         let kind = view.kind(decision.aircraft);
@@ -226,7 +227,7 @@ impl Look<'_> {
         let best_usd = self.listed[0].worth_usd;
         let choices = prices.choices(view, decision);
         let vertiports = VertiportIx::all(self.around.len()).zip(self.around);
-        for ((at, around), row) in vertiports.zip(to.chunks_exact_mut(NODES.len())) {
+        for ((at, around), row) in vertiports.zip(to.chunks_exact_mut(stride)) {
             let is_listed = self.listed.iter().any(|choice| choice.to == at);
             let ready = around.ready;
             let worth_usd = prices.worth_usd(kind, at, ready);
@@ -248,7 +249,7 @@ impl Look<'_> {
                     node.more.passengers = units(boarding * passenger_usd);
                 }
             }
-            column::write(&NODES, &node, row);
+            column::write(&NODES, &node, &mut row[..NODES.len()]);
         }
     }
 

@@ -3,6 +3,7 @@
 use vertifleet_core::{AircraftIx, Time, TypeIx, VertiportIx};
 use vertifleet_sim::{Leg, Outcome};
 
+use crate::charge;
 use crate::column::hours;
 use crate::full::{self, Edges};
 use crate::pairs::Pairs;
@@ -107,11 +108,27 @@ impl Writer<'_> {
             Part::Adjacency => pairs().sets(to, |from| {
                 view.within_range(self.scene.kind(), from).without(&view.closed(from))
             }),
-            Part::PricedNodes => self.at_prices(|look| look.write_nodes(to)),
+            Part::PricedNodes => self.at_prices(|look| look.write_nodes(priced::NODES.len(), to)),
             Part::PricedAircraft => self.at_prices(|look| look.write_aircraft(to)),
             Part::PricedWorth => self.at_prices(|look| look.write_worth(to)),
-            Part::FullNodes => self.in_full(|look| look.write_nodes(to)),
+            Part::PricedChargeNodes => self.at_prices(|look| {
+                self.charge_of_nodes(part, to);
+                look.write_nodes(part.columns(), to);
+            }),
+            Part::PricedChargeAircraft => self.at_prices(|look| {
+                charge::write_aircraft(view, self.scene.decision, to);
+                look.write_aircraft(&mut to[..priced::AIRCRAFT.len()]);
+            }),
+            Part::FullNodes => self.in_full(|look| look.write_nodes(full::NODES.len(), to)),
             Part::FullAircraft => self.in_full(|look| look.write_aircraft(to)),
+            Part::FullChargeNodes => self.in_full(|look| {
+                self.charge_of_nodes(part, to);
+                look.write_nodes(part.columns(), to);
+            }),
+            Part::FullChargeAircraft => self.in_full(|look| {
+                charge::write_aircraft(view, self.scene.decision, to);
+                look.write_aircraft(&mut to[..full::AIRCRAFT.len()]);
+            }),
             Part::DistanceEdges => self.in_full(|look| look.write_edges(Edges::Distance, self.sizes.vertiports, to)),
             Part::ProfitEdges => self.in_full(|look| look.write_edges(Edges::Profit, self.sizes.vertiports, to)),
         }
@@ -254,6 +271,11 @@ impl Writer<'_> {
                 row[at.at()] = (number(&legs[at.at()]) * pairs.factor) as f32;
             }
         }
+    }
+
+    /// Writes the features of charge into the last columns of each vertiport's row.
+    fn charge_of_nodes(&self, part: Part, to: &mut [f32]) {
+        charge::write_nodes(self.scene.view, self.scene.decision, part.columns(), to);
     }
 
     fn at_prices(&self, write: impl FnOnce(priced::Look<'_>)) {

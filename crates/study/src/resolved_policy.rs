@@ -178,13 +178,13 @@ impl ResolvedPolicy {
                 let header = model.header();
                 let decisions = grouped(header.steps as f64, 0);
                 match (header.policy.observation(), most_rolled_out) {
-                    (Observation::Paper | Observation::Full, _) => {
+                    (Observation::Paper | Observation::Full { .. }, _) => {
                         format!("learned on {} from {decisions} decisions", header.network)
                     }
-                    (Observation::Priced, 1) => {
+                    (Observation::Priced { .. }, 1) => {
                         format!("learned what prices miss from {decisions} decisions")
                     }
-                    (Observation::Priced, most) => format!(
+                    (Observation::Priced { .. }, most) => format!(
                         "learned what prices miss from {decisions} decisions; rolls its {most} best choices out"
                     ),
                 }

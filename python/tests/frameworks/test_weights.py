@@ -13,7 +13,8 @@ import vertifleet
 torch = pytest.importorskip("torch")
 safetensors = pytest.importorskip("safetensors.torch")
 
-from vertifleet.torch import Gcaps, GcapsX, Mlp, act, load, masked, save  # noqa: E402
+from vertifleet.envs import FleetEnv  # noqa: E402
+from vertifleet.torch import Gcaps, GcapsFull, GcapsX, Mlp, act, load, masked, save  # noqa: E402
 
 MODELS = Path(__file__).parents[3] / "models"
 SHIPPED = {
@@ -315,3 +316,28 @@ def test_weights_from_no_file_need_network_and_steps(kind, tmp_path):
     save(fresh(kind), tmp_path / "x.safetensors", **origin)
     header = load(tmp_path / "x.safetensors").header
     assert (header["settings"], header["seed"]) == (None, None)
+
+
+@pytest.mark.parametrize("kind", [GcapsX, GcapsFull])
+def test_weights_that_read_charge_decide_alike_on_days_that_charge_as_needed(kind, tmp_path):
+    torch.manual_seed(1)
+    twin = kind(width=16, heads=4, charge=True)
+    with torch.no_grad():
+        for weight in twin.parameters():
+            weight.add_(0.3 * torch.randn_like(weight))
+    path = tmp_path / "mine.safetensors"
+    save(twin, path, network="paper-quick", steps=1)
+    read = load(path)
+    assert read.charge
+    assert "charge" not in kind().sizes
+    assert read.shape["node_features"] == kind().node_features + 3
+    program = vertifleet.policy(kind.kind, model=path)
+    env = FleetEnv("paper-quick", observation=read.reads)
+    observation, _ = env.reset(seed=1)
+    for _ in range(60):
+        choice = act(read, observation)
+        assert choice == program.choose(env.view.decision, env.view)
+        observation, *_ = env.step(choice)
+    for charge in (1.5, "yes", None):
+        with pytest.raises(vertifleet.Error, match="charge must be True or False"):
+            kind(charge=charge)

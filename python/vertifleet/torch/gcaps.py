@@ -25,6 +25,10 @@ if TYPE_CHECKING:
     from vertifleet.torch.graph import Graph
 
 
+CHARGE_FEATURES = 3
+"""Number of features of charge, of a node and of the aircraft."""
+
+
 class Gcaps(Twin):
     """The paper's network, for one number of vertiports.
 
@@ -36,6 +40,8 @@ class Gcaps(Twin):
     """
 
     kind = "gcaps"
+    charge: bool = False
+    """Whether the network reads the features of charge."""
     sees_the_full: ClassVar[bool] = False
     """Whether the policy's observation may contain the weights of edges."""
 
@@ -50,6 +56,16 @@ class Gcaps(Twin):
         node_features, aircraft_features = paper_features(vertiports)
         super().__init__(vertiports, node_features, aircraft_features)
         self._add_layers(width, heads, graph)
+
+    def _with_charge(self, nodes: int, aircraft: int, charge: bool) -> tuple[int, int]:
+        """The numbers of features, with those of charge if the network reads them."""
+        if not isinstance(charge, bool):
+            raise Error("V451", f"charge must be True or False, found {charge!r}")
+        self.charge = charge
+        if not charge:
+            return nodes, aircraft
+        self.features = f"{self.features}charge_"
+        return nodes + CHARGE_FEATURES, aircraft + CHARGE_FEATURES
 
     def _add_layers(self, width: int, heads: int, graph: Graph | Mapping[str, Any] | None) -> None:
         width, heads = check_size("width", width), check_size("heads", heads)
@@ -67,9 +83,13 @@ class Gcaps(Twin):
 
     @property
     def sizes(self) -> dict[str, Any]:
-        """The embedding length, the number of heads, and the graph if it is not the paper's."""
+        """The embedding length, the number of heads, the graph if it is not the paper's, and whether the
+        network reads the features of charge if it does.
+        """
         sizes: dict[str, Any] = {"width": self.width, "heads": self.heads}
-        return sizes if self.graph.is_of_the_paper else sizes | {"graph": self.graph.members}
+        if not self.graph.is_of_the_paper:
+            sizes["graph"] = self.graph.members
+        return sizes | {"charge": True} if self.charge else sizes
 
     def _answers(
         self, nodes: Tensor, aircraft: Tensor, clock: Tensor, edges: Tensor | None
@@ -83,28 +103,34 @@ class GcapsX(Gcaps):
     """The layers of :class:`Gcaps` on features whose number does not grow with the network.
 
     So its weights fit any number of vertiports. The features are those of the observation "gcaps-x", and the
-    program adds the logits to the worths of choices at the day's prices.
+    program adds the logits to the worths of choices at the day's prices. With `charge`, the features of
+    charge come after the others.
     """
 
     kind = "gcaps-x"
     features = "priced_"
 
     def __init__(
-        self, width: int = 32, heads: int = 4, graph: Graph | Mapping[str, Any] | None = None
+        self,
+        width: int = 32,
+        heads: int = 4,
+        graph: Graph | Mapping[str, Any] | None = None,
+        charge: bool = False,
     ) -> None:
-        Twin.__init__(self, None, node_features=24, aircraft_features=10)
+        Twin.__init__(self, None, *self._with_charge(24, 10, charge))
         self._add_layers(width, heads, graph)
 
     @property
     def reads(self) -> tuple[str, ...]:
         """The parts of an observation that the network decides by."""
-        return ("priced_nodes", "priced_aircraft", "priced_worth")
+        return (f"{self.features}nodes", f"{self.features}aircraft", "priced_worth")
 
 
 class GcapsFull(Gcaps):
     """The layers of :class:`Gcaps` on the observation "gcaps-full", which needs no bid prices.
 
-    Its weights fit any number of vertiports, and it is the only network that reads the weights of edges.
+    Its weights fit any number of vertiports, and it is the only network that reads the weights of edges. With
+    `charge`, the features of charge come after the others.
     """
 
     kind = "gcaps-full"
@@ -112,9 +138,13 @@ class GcapsFull(Gcaps):
     sees_the_full = True
 
     def __init__(
-        self, width: int = 64, heads: int = 4, graph: Graph | Mapping[str, Any] | None = None
+        self,
+        width: int = 64,
+        heads: int = 4,
+        graph: Graph | Mapping[str, Any] | None = None,
+        charge: bool = False,
     ) -> None:
-        Twin.__init__(self, None, *FULL_FEATURES)
+        Twin.__init__(self, None, *self._with_charge(*FULL_FEATURES, charge))
         self._add_layers(width, heads, graph)
 
 

@@ -33,7 +33,7 @@ class Twin(nn.Module, ABC):
 
     kind: ClassVar[str]
     """The policy's name: "gcaps", "mlp", "gcaps-x", "gcaps-full" or "mlp-full"."""
-    features: ClassVar[str] = ""
+    features: str = ""
     """The prefix of the names of the features that it reads in observations."""
     edges: str | None = None
     """The part of an observation with the weights of the edges; None if the network reads none."""

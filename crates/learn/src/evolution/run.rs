@@ -7,7 +7,6 @@ use std::sync::Arc;
 use rayon::prelude::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 use vertifleet_core::{Scenario, Stop, World};
-use vertifleet_observe::Observation;
 use vertifleet_policy::units_usd;
 use vertifleet_sim::{DayTotals, Simulation};
 
@@ -276,7 +275,7 @@ fn day_unit_usd(day: &Arc<Scenario>) -> f64 {
 fn play_days(model: &Model, days: &[Arc<Scenario>]) -> Vec<DayTotals> {
     let mut policy = model.policy(1);
     // It caches the prices of one day at a time.
-    if model.header().policy.observation() == Observation::Priced {
+    if model.header().policy.observation().is_priced() {
         return days.iter().map(|day| played(policy.as_mut(), day)).collect();
     }
     days.chunk_by(|one, other| one.vertiports.len() == other.vertiports.len())

@@ -57,8 +57,8 @@ impl Teacher {
     ) {
         let PricedDecision { view, decision, prices, .. } = scene;
         let unit_usd = match self.observation {
-            Observation::Priced => scene.addition_usd(),
-            Observation::Paper | Observation::Full => scene.unit_usd,
+            Observation::Priced { .. } => scene.addition_usd(),
+            Observation::Paper | Observation::Full { .. } => scene.unit_usd,
         };
         if unit_usd <= 0.0 {
             return;
@@ -72,7 +72,7 @@ impl Teacher {
         self.judged.extend(rolled_out.map(|(&PricedChoice { worth_usd, to }, &value_usd)| {
             LabelledChoice { to, worth_usd, value_usd }
         }));
-        if self.observation != Observation::Priced {
+        if !self.observation.is_priced() {
             judge_the_others(prices, view, decision, &mut self.judged);
         }
         let priced = Some((prices, listed));

@@ -206,8 +206,8 @@ struct Advice<'a> {
 /// The factor of worth at the prices in a logit when this policy decides.
 fn priced_weight(policy: &Architecture) -> f32 {
     match policy.observation() {
-        Observation::Priced => LOGITS_A_UNIT as f32,
-        Observation::Paper | Observation::Full => 0.0,
+        Observation::Priced { .. } => LOGITS_A_UNIT as f32,
+        Observation::Paper | Observation::Full { .. } => 0.0,
     }
 }
 

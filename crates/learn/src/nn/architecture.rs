@@ -39,6 +39,14 @@ pub struct GcapsSettings {
     /// The relations between the vertiports.
     #[serde(default, skip_serializing_if = "GraphSettings::is_of_the_paper")]
     pub graph: GraphSettings,
+    /// Whether `gcaps-x` or `gcaps-full` observes the features of charge too.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub charge: bool,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes members by reference")]
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 /// How a `gcaps` network relates the vertiports to each other, and the aircraft. The default is the
@@ -116,7 +124,7 @@ pub struct MlpSettings {
 impl GcapsSettings {
     /// A network of the paper with other sizes.
     pub fn of_sizes(width: usize, heads: usize) -> Self {
-        Self { width, heads, graph: GraphSettings::default() }
+        Self { width, heads, graph: GraphSettings::default(), charge: false }
     }
 }
 
@@ -197,9 +205,13 @@ impl Architecture {
         match self {
             Self::Gcaps(sizes) => ("gcaps", Observation::Paper, Graph(sizes)),
             Self::Mlp(sizes) => ("mlp", Observation::Paper, Plain(sizes)),
-            Self::GcapsX(sizes) => ("gcaps-x", Observation::Priced, Graph(sizes)),
-            Self::GcapsFull(sizes) => ("gcaps-full", Observation::Full, Graph(sizes)),
-            Self::MlpFull(sizes) => ("mlp-full", Observation::Full, Plain(sizes)),
+            Self::GcapsX(sizes) => {
+                ("gcaps-x", Observation::Priced { charge: sizes.charge }, Graph(sizes))
+            }
+            Self::GcapsFull(sizes) => {
+                ("gcaps-full", Observation::Full { charge: sizes.charge }, Graph(sizes))
+            }
+            Self::MlpFull(sizes) => ("mlp-full", Observation::Full { charge: false }, Plain(sizes)),
         }
     }
 
@@ -258,12 +270,32 @@ impl Architecture {
         self.observation() != Observation::Paper && matches!(self.layers(), Layers::Graph(_))
     }
 
+    /// Checks that the features of charge are asked for only where the policy can observe them.
+    ///
+    /// # Errors
+    /// Returns the rule that is broken.
+    pub(crate) fn check_charge(&self) -> Result<(), String> {
+        if matches!(self, Self::Gcaps(GcapsSettings { charge: true, .. })) {
+            return Err("must be false for gcaps, whose observation is the paper's".to_owned());
+        }
+        Ok(())
+    }
+
+    /// The same policy without the features of charge.
+    pub(crate) fn without_charge(&self) -> Self {
+        let mut policy = self.clone();
+        if let Self::GcapsX(sizes) | Self::GcapsFull(sizes) = &mut policy {
+            sizes.charge = false;
+        }
+        policy
+    }
+
     /// Checks that the policy's observation contains the graph.
     ///
     /// # Errors
     /// Returns the rule that is broken.
     pub(crate) fn check_graph(&self) -> Result<(), String> {
-        if self.edges().is_some() && self.observation() != Observation::Full {
+        if self.edges().is_some() && !self.observation().is_full() {
             let name = self.name();
             return Err(format!(
                 "the observation of {name} shows no flights between two other vertiports"

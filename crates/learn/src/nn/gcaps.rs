@@ -102,7 +102,7 @@ impl Gcaps {
         settings: &GcapsSettings,
         shape: Shape,
     ) -> Result<(Self, Layout, Layout, usize), String> {
-        let &GcapsSettings { width, heads, ref graph } = settings;
+        let &GcapsSettings { width, heads, ref graph, charge: _ } = settings;
         check_size("width", width)?;
         check_size("heads", heads)?;
         graph.check()?;
@@ -238,7 +238,7 @@ fn paper_hops(layout: &mut Layout, width: usize) -> [[Slot; 3]; 2] {
 }
 
 fn general_encoder(layout: &mut Layout, settings: &GcapsSettings, shape: Shape) -> AnyEncoder {
-    let &GcapsSettings { width, heads, ref graph } = settings;
+    let &GcapsSettings { width, heads, ref graph, charge: _ } = settings;
     let Shape { vertiports, node_features, .. } = shape;
     match graph.encoder {
         EncoderKind::Capsules => {

@@ -67,10 +67,25 @@ fn first_column(page: &str, heading: &str) -> Vec<String> {
 fn the_page_of_policies_names_every_feature_in_its_order() {
     let page = include_str!("../../../../docs/src/concepts/policies.md");
     let (_, of_full) = page.split_once("\n## gcaps-full\n").expect("a section");
-    for (observation, page) in [(Observation::Priced, page), (Observation::Full, of_full)] {
+    let (priced, full) =
+        (Observation::Priced { charge: false }, Observation::Full { charge: false });
+    for (observation, page) in [(priced, page), (full, of_full)] {
         let [nodes, aircraft] = observation.names();
         let heading = |what, count| format!("What {what} shows ({count} numbers)");
         assert_eq!(first_column(page, &heading("a vertiport", nodes.len())), nodes);
         assert_eq!(first_column(page, &heading("the aircraft", aircraft.len())), aircraft);
+    }
+    let of_charge = ["a vertiport", "the aircraft"]
+        .map(|what| first_column(page, &format!("What charge adds to {what} (3 numbers)")));
+    for (without, with) in
+        [(priced, Observation::Priced { charge: true }), (full, Observation::Full { charge: true })]
+    {
+        for ((without, with), of_charge) in
+            without.names().into_iter().zip(with.names()).zip(&of_charge)
+        {
+            let expected: Vec<&str> =
+                without.into_iter().chain(of_charge.iter().map(String::as_str)).collect();
+            assert_eq!(with, expected);
+        }
     }
 }

@@ -243,6 +243,54 @@ fn policies_observe_the_values_of_the_parts() {
     });
 }
 
+/// The features of charge come after the others, which stay as they are: weights that do not read
+/// charge decide as before.
+#[test]
+fn features_of_charge_come_after_the_others() {
+    let pairs = [
+        (Part::PricedNodes, Part::PricedChargeNodes),
+        (Part::PricedAircraft, Part::PricedChargeAircraft),
+        (Part::FullNodes, Part::FullChargeNodes),
+        (Part::FullAircraft, Part::FullChargeAircraft),
+    ];
+    let mut waits = 0;
+    for day in days() {
+        let layout = layout(&day, 0);
+        let (mut row, mut observer) = (vec![0.0; layout.width()], Observer::default());
+        play(&day, |view, decision| {
+            if !decision.index.is_multiple_of(11) {
+                return;
+            }
+            layout.write(&mut row, &Scene::of(view, decision), &mut observer);
+            let get = |name| part(&layout, &row, name);
+            for (without, with) in pairs {
+                let columns = |part: Part| *part.shape(layout.sizes()).last().expect("an axis");
+                let rows = get(without).chunks_exact(columns(without));
+                for (without, with) in rows.zip(get(with).chunks_exact(columns(with))) {
+                    assert_eq!(with[..without.len()], *without);
+                    assert_eq!(with.len(), without.len() + 3);
+                }
+            }
+            let kind = view.aircraft_type(view.kind(decision.aircraft));
+            let full_kwh = kind.battery_kwh as f32;
+            for to in 0..view.vertiports() {
+                let node = &get(Part::FullChargeNodes)[40 * to..][37..40];
+                let after = 100.0 * get(Part::ChoiceCharge)[to] / full_kwh;
+                assert!((node[2] - after).abs() < 1e-5, "{node:?}, {after}");
+                assert_eq!(node[0], get(Part::ChoiceWait)[to].min(2.0));
+                waits += u32::from(node[0] > 0.0);
+                assert!((0.0..=1.0).contains(&node[1]), "{node:?}");
+            }
+            let aircraft = &get(Part::PricedChargeAircraft)[10..];
+            let charge = 100.0 * get(Part::FleetCharge)[decision.aircraft.at()] / full_kwh;
+            assert!((aircraft[0] - charge).abs() < 1e-5, "{aircraft:?}, {charge}");
+            assert_eq!(aircraft[2] == 1.0, view.charges_as_needed());
+            assert!(view.charges_as_needed() || aircraft == [1.0, 0.0, 0.0]);
+        });
+    }
+    assert!(waits > 100, "{waits} choices wait for their charge");
+}
+
 #[test]
 fn only_the_first_version_of_the_full_observation_depends_on_charge_beyond_that_of_the_paper() {
     let of_charge = |part: &&Part| part.is_of_charge();
