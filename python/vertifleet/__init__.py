@@ -39,12 +39,13 @@ from vertifleet._own_policy import BatchPolicy, FunctionPolicy, OwnPolicy
 from vertifleet._policy import Policy, policy
 from vertifleet._sweep import Sweep, sweep
 from vertifleet._train import train
-from vertifleet._view import Decision, Outcome, View
+from vertifleet._view import AircraftType, Decision, KnownClosure, Outcome, View
 from vertifleet.envs import OwnObservation
 from vertifleet.envs import register as _register
 
 __all__ = [
     "SUITES",
+    "AircraftType",
     "BatchPolicy",
     "Bound",
     "Comparison",
@@ -53,6 +54,7 @@ __all__ = [
     "Error",
     "Evaluation",
     "FunctionPolicy",
+    "KnownClosure",
     "Model",
     "Network",
     "Outcome",
