@@ -143,17 +143,14 @@ fn put(text: &mut String, what: std::fmt::Arguments<'_>) {
 /// `random-city-training-7` or `places-8-training-7`. `None` for other networks, which serve every
 /// purpose.
 pub(crate) fn drawn_for(network: &str) -> Option<Purpose> {
-    let of_places = |rest: &'_ str| {
+    let of_places = network.strip_prefix("places-").and_then(|rest| {
         let (vertiports, rest) = rest.split_once('-')?;
-        is_number(vertiports).then(|| rest.to_owned())
-    };
-    let rest = match network.strip_prefix("places-") {
-        Some(rest) => of_places(rest)?,
-        None => {
-            let rest = network.strip_prefix("random-")?;
-            rest.strip_prefix("city-").unwrap_or(rest).to_owned()
-        }
-    };
+        is_number(vertiports).then_some(rest)
+    });
+    let rest = of_places.or_else(|| {
+        let rest = network.strip_prefix("random-")?;
+        Some(rest.strip_prefix("city-").unwrap_or(rest))
+    })?;
     let (purpose, number) = rest.split_once('-')?;
     Purpose::named(purpose).filter(|_| is_number(number))
 }
