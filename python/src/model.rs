@@ -205,7 +205,7 @@ fn pass(net: &nn::NeuralNetwork, weights: &nn::Weights, inputs: Inputs<'_>) -> n
 }
 
 /// The settings of a training preset of `gcaps` and `mlp` as a dict: `default`, `paper` (Table 2),
-/// `imitation` or `evolution`. Settings can be changed: `settings("paper", n_envs=16)`. Changed
+/// `imitation` or `evolution`. Settings can be changed: `settings("paper", ent_coef=0.4)`. Changed
 /// settings are checked in the same way as by `vertifleet train --set`.
 #[pyfunction]
 #[pyo3(signature = (preset = "default", **changes))]

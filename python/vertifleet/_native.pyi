@@ -898,7 +898,7 @@ class Sweep:
 
 def settings(preset: str = "default", **changes: Any) -> dict[str, Any]:
     """The settings of a training preset of `gcaps` and `mlp` as a dict: `default`, `paper` (Table 2),
-    `imitation` or `evolution`. Settings can be changed: `settings("paper", n_envs=16)`. Changed
+    `imitation` or `evolution`. Settings can be changed: `settings("paper", ent_coef=0.4)`. Changed
     settings are checked in the same way as by `vertifleet train --set`.
     """
 

@@ -147,7 +147,7 @@ def test_runners_with_seeds_that_follow_each_other_play_other_days(paper):
 
 
 def test_settings_become_those_of_rllib():
-    paper = vertifleet.settings("paper")
+    paper = vertifleet.settings("paper", n_envs=40, n_steps=500)
     config = ppo_config("paper", "gcaps", paper, env_runners=8)
     assert (config.num_env_runners, config.num_envs_per_env_runner) == (8, 5)
     assert config.get_rollout_fragment_length() == 500

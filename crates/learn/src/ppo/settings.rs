@@ -94,12 +94,13 @@ pub struct PpoSettings {
 
 impl PpoSettings {
     /// Exactly Table 2. Where the paper gives no value, this is stable-baselines3's default, except
-    /// for γ = 1, which a reward at the end of the day requires.
+    /// for γ = 1, which a reward at the end of the day requires. The roll-out of 20,000 decisions
+    /// is of one environment, as in the public script of the paper's authors.
     pub fn paper() -> Self {
         Self {
             total_steps: 2_000_000,
-            n_envs: 40,
-            n_steps: 500,
+            n_envs: 1,
+            n_steps: 20_000,
             batch_size: 10_000,
             n_epochs: 100,
             learning_rate: 1e-6,
@@ -194,7 +195,7 @@ mod tests {
     fn the_paper_preset_is_table_2() {
         let paper = PpoSettings::paper();
         assert_eq!(paper.total_steps, 2_000_000);
-        assert_eq!(paper.buffer_size(), 20_000);
+        assert_eq!((paper.n_envs, paper.n_steps, paper.updates()), (1, 20_000, 100));
         assert_eq!((paper.batch_size, paper.n_epochs), (10_000, 100));
         assert_eq!((paper.learning_rate, paper.ent_coef, paper.vf_coef), (1e-6, 0.01, 0.5));
     }

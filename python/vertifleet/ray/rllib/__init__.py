@@ -5,7 +5,7 @@ The trained weights are saved as a weight file of the program::
     import vertifleet
     from vertifleet.ray.rllib import export, ppo_config
 
-    settings = vertifleet.settings("paper")
+    settings = vertifleet.settings("paper", n_envs=40, n_steps=500)
     algorithm = ppo_config("paper", "gcaps", settings, env_runners=8).build_algo()
     for _ in range(settings["total_steps"] // (settings["n_envs"] * settings["n_steps"])):
         algorithm.train()
