@@ -130,6 +130,14 @@ pub(crate) enum Command {
     /// one decision. A policy that cannot play a suite is left out of it. The random policy and the
     /// search of plan have seed 1.
     Evaluate(EvaluateArguments),
+    /// Rank the methods of result files, with training runs as the unit
+    ///
+    /// Verifies every file first, and ends with exit code 1 if a claim does not hold. Each file is
+    /// a run of a method on a suite; runs of one method differ in their seeds alone. Prints a table
+    /// for each suite, sorted by what methods see, then by share: the mean share of the certified
+    /// bound and the interquartile mean, with intervals over runs and days. The report adds
+    /// performance profiles, and board.md, the same page in Markdown.
+    Board(BoardArguments),
     /// Run the dispatch service: live days over HTTP, with a console at /
     ///
     /// Ctrl-C ends it after the requests that it is carrying out.
@@ -373,15 +381,28 @@ pub(crate) struct EvaluateArguments {
     /// Note in the result files, as training=NONE; may be given several times
     #[arg(long, value_name = "NAME=TEXT", requires = "results", value_parser = parse_pair)]
     pub(crate) about: Vec<(String, String)>,
+    /// Method that a policy is a training run of, for board, as mine-2=mine; may be given several
+    /// times. The seed of the run is that of the weights [default: the name of the policy]
+    #[arg(long = "method", value_name = "POLICY=METHOD", requires = "results", value_parser = parse_pair)]
+    pub(crate) methods: Vec<(String, String)>,
     /// Verify result files: play their choices again, and recompute every claim; the exit code is 1
     /// if one does not hold
-    #[arg(long, value_name = "RESULT", num_args = 1.., conflicts_with_all = ["suite", "policies", "models", "results", "about", "force"])]
+    #[arg(long, value_name = "RESULT", num_args = 1.., conflicts_with_all = ["suite", "policies", "models", "results", "about", "methods", "force"])]
     pub(crate) verify: Vec<PathBuf>,
     /// Print the results as JSON
     #[arg(long)]
     pub(crate) json: bool,
     #[arg(long, help = FORCE)]
     pub(crate) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BoardArguments {
+    /// Result files of evaluate --results, or a folder with them (all *.json)
+    #[arg(required = true, value_name = "RESULT|DIR")]
+    pub(crate) results: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) presented: PresentedArguments,
 }
 
 /// How a study is shown.

@@ -1,5 +1,6 @@
 //! The commands, one file each, and the functions that they share.
 
+pub(crate) mod board;
 pub(crate) mod bound;
 pub(crate) mod check;
 pub(crate) mod compare;

@@ -45,6 +45,7 @@ fn run(command: Command) -> Result<ExitCode, failure::Failure> {
         Command::Sweep(arguments) => commands::sweep::run(&arguments),
         Command::Size(arguments) => commands::size::run(&arguments),
         Command::Evaluate(arguments) => commands::evaluate::run(&arguments),
+        Command::Board(arguments) => commands::board::run(&arguments),
         #[cfg(feature = "service")]
         Command::Serve(arguments) => commands::serve::run(&arguments),
         #[cfg(feature = "service")]

@@ -34,6 +34,16 @@ impl Scale {
         Self { low: 0.0, high, from, to, step: round_step(high / ticks as f64) }
     }
 
+    /// The lowest value on the scale.
+    pub fn lowest(&self) -> f64 {
+        self.low
+    }
+
+    /// The highest value on the scale.
+    pub fn highest(&self) -> f64 {
+        self.high
+    }
+
     /// The pixel at which a value lies.
     pub fn pixel(&self, value: f64) -> f64 {
         self.from + (value - self.low) / (self.high - self.low) * (self.to - self.from)

@@ -122,7 +122,7 @@ fn picture(account: &Account, picture: PlayedPicture) -> Section {
     };
     Section {
         title: heading(picture).to_owned(),
-        figures: vec![Figure { slug: picture.name(), caption, svg }],
+        figures: vec![Figure { slug: picture.name().into(), caption, svg }],
         place: if table.is_some() { Place::Everywhere } else { Place::Page },
         table,
         ..Section::default()

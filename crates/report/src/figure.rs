@@ -11,10 +11,14 @@ mod designs;
 mod heat_map;
 mod key;
 mod learning_curves;
+mod profiles;
 mod response;
 mod tornado;
 
+use std::borrow::Cow;
+
 use vertifleet_study::ComparisonReport;
+use vertifleet_study::board::SuiteBoard;
 use vertifleet_study::size::SizeReport;
 use vertifleet_study::sweep::SweepReport;
 
@@ -22,7 +26,7 @@ use vertifleet_study::sweep::SweepReport;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Figure {
     /// File name without ending, for example `figure-5-profit`.
-    pub slug: &'static str,
+    pub slug: Cow<'static, str>,
     /// How to read the picture, in a sentence or two.
     pub caption: String,
     /// The picture: a complete SVG document.
@@ -46,6 +50,11 @@ pub(crate) fn of_comparison(summary: &ComparisonReport) -> Vec<Figure> {
 pub(crate) fn of_sweep(report: &SweepReport) -> Vec<Figure> {
     let figures = [response::curves(report), heat_map::figure(report), tornado::figure(report)];
     figures.into_iter().flatten().collect()
+}
+
+/// The figure of a suite of a board.
+pub(crate) fn of_board(board: &SuiteBoard) -> Figure {
+    profiles::figure(board)
 }
 
 /// The figures of a search for a design.

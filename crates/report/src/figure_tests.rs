@@ -38,6 +38,7 @@ fn study(names: &[&str], days: u32) -> ComparisonRecords {
         // Every third policy is a reference that knows the day in advance.
         sees: vertifleet_study::Sees::Present,
         weights_sha256: None,
+        training_seed: None,
         decision_ns: (policy % 3 != 2).then(LatencySummary::default),
     });
     let curves = names.iter().zip(0u32..).map(|(&name, policy)| LearningCurve {
@@ -101,7 +102,7 @@ fn record(policy: u32, day: u32) -> DayRecord {
 }
 
 fn slugs(figures: &[Figure]) -> Vec<&str> {
-    figures.iter().map(|figure| figure.slug).collect()
+    figures.iter().map(|figure| &*figure.slug).collect()
 }
 
 #[test]

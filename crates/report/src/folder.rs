@@ -33,11 +33,17 @@ fn is_common(name: &str) -> bool {
     is_figure || name == "report.html" || name == "summary.json"
 }
 
-/// The folder of a comparison's report.
-pub const COMPARISON: FolderKind = FolderKind {
+/// The folder of the report of a comparison or a board.
+pub const REPORT: FolderKind = FolderKind {
     name: "report",
-    mark: ("summary.json", &[summary_of("{\n  \"format\": \"vertifleet-comparison/")]),
-    holds: |name| is_common(name) || ["replay.html", "days.csv"].contains(&name),
+    mark: (
+        "summary.json",
+        &[
+            summary_of("{\n  \"format\": \"vertifleet-comparison/"),
+            summary_of("{\n  \"format\": \"vertifleet-board/"),
+        ],
+    ),
+    holds: |name| is_common(name) || ["replay.html", "days.csv", "board.md"].contains(&name),
 };
 
 /// The folder of a sweep, with its journal.
@@ -75,12 +81,12 @@ pub fn check(folder: &Path, force: bool) -> Result<(), Error> {
         let _ = fs::remove_dir(path);
     }
     made?;
-    Ok(vertifleet_core::check_folder(folder, &COMPARISON, force)?)
+    Ok(vertifleet_core::check_folder(folder, &REPORT, force)?)
 }
 
-/// Writes the whole report of a comparison into `folder`, or nothing; the folder is created if it
-/// does not exist. An earlier report in it is replaced. With `force`, a folder with other content
-/// is renamed and kept in the same place.
+/// Writes the whole report of a comparison or a board into `folder`, or nothing; the folder is
+/// created if it does not exist. An earlier report in it is replaced. With `force`, a folder with
+/// other content is renamed and kept in the same place.
 ///
 /// # Errors
 /// The same as those of [`check`], and [`Error::Core`] (V102) if the report cannot be written. An
@@ -88,7 +94,7 @@ pub fn check(folder: &Path, force: bool) -> Result<(), Error> {
 pub fn write(report: &Report<'_>, folder: &Path, force: bool) -> Result<Written, Error> {
     let files = files(report);
     check(folder, force)?;
-    let kept = replace_folder(folder, &COMPARISON, force, &files)?;
+    let kept = replace_folder(folder, &REPORT, force, &files)?;
     Ok(Written { page: folder.join("report.html"), kept })
 }
 

@@ -109,7 +109,7 @@ impl Report<'_> {
                             a href=(file.name) { (file.name) } " (" (file.about) ")"
                         }
                         @for figure in self.figures() {
-                            "; " a href={ (figure.slug) ".svg" } { (figure.slug) } " (" a href={ (figure.slug) ".png" } { "PNG" } ")"
+                            "; " a href={ (&figure.slug) ".svg" } { (&figure.slug) } " (" a href={ (&figure.slug) ".png" } { "PNG" } ")"
                         }
                         "." }
                 }
@@ -134,7 +134,7 @@ fn style() -> String {
 fn section(section: &Section, files: &Files<'_>) -> Markup {
     html! {
         @if !section.title.is_empty() {
-            h2 id=[section.figures.first().map(|figure| figure.slug)] { (section.title) }
+            h2 id=[section.figures.first().map(|figure| &figure.slug)] { (section.title) }
         }
         @if !section.notes.is_empty() { p.lead { (sentences(&section.notes)) } }
         @for figure in &section.figures { (picture(figure, files)) }
@@ -144,7 +144,7 @@ fn section(section: &Section, files: &Files<'_>) -> Markup {
 }
 
 /// Notes as sentences: each begins with a capital letter and ends with a full stop.
-fn sentences(notes: &[String]) -> String {
+pub(crate) fn sentences(notes: &[String]) -> String {
     let sentence = |note: &String| {
         let mut letters = note.chars();
         let first = letters.next().into_iter().flat_map(char::to_uppercase);

@@ -160,6 +160,7 @@ impl Competitor {
             description: self.description(),
             sees: self.sees(),
             weights_sha256: self.weights_sha256(),
+            training_seed: self.policy().and_then(ResolvedPolicy::training_seed),
             days,
             decision_ns,
         }

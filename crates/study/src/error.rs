@@ -203,6 +203,30 @@ pub enum Error {
         path: PathBuf,
     },
 
+    /// V415 result that does not verify. `board` shows verified results only, and a claim of this
+    /// file does not hold: it was changed, or its bounds are of another version.
+    ///
+    /// Fix: `vertifleet evaluate --verify FILE` lists everything that does not hold. Leave the file
+    /// out, or evaluate the policy again.
+    #[error("{origin}: {verdict}")]
+    NotVerified {
+        /// The path of the file.
+        origin: String,
+        /// What does not hold.
+        verdict: String,
+    },
+
+    /// V416 results that do not go together. `board` was given two results of one training run,
+    /// runs of one method that see different things, or no result at all.
+    ///
+    /// Fix: give each run once. Name runs where files do not: `evaluate --method POLICY=METHOD`,
+    /// with weights that have a seed, or `Evaluation.save(runs=...)` in Python.
+    #[error("the results do not go together: {rule}")]
+    ResultsDiffer {
+        /// The rule that is broken.
+        rule: String,
+    },
+
     /// No policy has this name. Cause: a typing error. Fix: give one of the names that the
     /// message lists.
     #[error("there is no policy {name:?}: known are {known}")]
@@ -254,6 +278,8 @@ impl Coded for Error {
             Self::SuiteChanged { .. } => 412,
             Self::NotAResult { .. } => 413,
             Self::OtherStudy { .. } => 414,
+            Self::NotVerified { .. } => 415,
+            Self::ResultsDiffer { .. } => 416,
             Self::UnknownPolicy { .. } => 307,
         })
     }
@@ -292,6 +318,12 @@ impl Coded for Error {
             Self::NotAResult { .. } => {
                 Some("results are written by `vertifleet evaluate --results`")
             }
+            Self::NotVerified { .. } => {
+                Some("leave the file out, or evaluate the policy again with this version")
+            }
+            Self::ResultsDiffer { .. } => Some(
+                "a method has one result for each training run; evaluate --method names the method of a run",
+            ),
             Self::OtherStudy { .. } => Some("name another one, or replace that study with --force"),
             Self::NotFinite { .. } | Self::Stopped => None,
         }
@@ -303,7 +335,10 @@ impl Coded for Error {
             Self::Learn(error) => error.exit(),
             Self::Optimize(error) => error.exit(),
             Self::Trace(error) => error.exit(),
-            Self::CannotMakeFolder { .. } | Self::NotFinite { .. } | Self::Stopped => Exit::Failed,
+            Self::CannotMakeFolder { .. }
+            | Self::NotFinite { .. }
+            | Self::NotVerified { .. }
+            | Self::Stopped => Exit::Failed,
             _ => Exit::Input,
         }
     }

@@ -14,9 +14,12 @@ use crate::run::Kept;
 use crate::study::{Study, Watch};
 use crate::suite::{Suite, SuiteDay};
 
-pub use result::{RESULT, RESULT_FORMAT, ResultDay, ResultFile, ResultPolicy};
+pub use result::{
+    RESULT, RESULT_FORMAT, ResultDay, ResultFile, ResultPolicy, TrainingRun, check_runs,
+};
 pub use summary::{EvaluatedPolicy, EvaluationReport, FORMAT, SuiteReport};
 pub use verify::{Verification, verify};
+pub(crate) use verify::{can_be_drawn, verify_on};
 
 /// A suite and the competitors that will play it. Everything that can be checked beforehand has
 /// been checked.

@@ -28,6 +28,7 @@
 //! ```
 
 pub mod account;
+pub mod board;
 pub mod comparison;
 pub mod competitor;
 mod error;
@@ -53,6 +54,7 @@ mod study;
 mod suite;
 pub mod sweep;
 
+pub use board::BoardReport;
 pub use comparison::ComparisonReport;
 pub use error::Error;
 pub use journal::make_folder;

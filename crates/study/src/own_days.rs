@@ -94,8 +94,9 @@ impl OwnDays {
     }
 }
 
-/// The files that the paths stand for.
-fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
+/// The files that the paths stand for: a folder stands for all of its files whose names end in
+/// `.json`, in the order of their names.
+pub(crate) fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
     let mut files = Vec::new();
     for path in paths {
         if path.is_dir() {

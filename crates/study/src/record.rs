@@ -76,6 +76,9 @@ pub struct PolicyRecord {
     /// SHA-256 of its weight file; `None` for a policy without weights of ours.
     #[serde(default)]
     pub weights_sha256: Option<String>,
+    /// The seed of the training run that made its weights, if they state it.
+    #[serde(default)]
+    pub training_seed: Option<u32>,
     /// One record for each day, in the study's order of days.
     pub days: Vec<DayRecord>,
     /// The time that one decision of this policy takes; `None` for a reference, which planned each

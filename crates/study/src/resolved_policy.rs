@@ -200,6 +200,14 @@ impl ResolvedPolicy {
         }
     }
 
+    /// The seed of the training run that made its weights, if they state it.
+    pub(crate) fn training_seed(&self) -> Option<u32> {
+        match self {
+            Self::Learned { model, .. } => model.header().seed,
+            _ => None,
+        }
+    }
+
     /// The name of the network whose days it was trained on, if it was trained.
     pub(crate) fn trained_on(&self) -> Option<&str> {
         match self {

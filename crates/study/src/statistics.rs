@@ -113,7 +113,7 @@ impl BoxSummary {
 
 /// Quantile by linear interpolation between order statistics (type 7 of Hyndman and Fan, as in
 /// `NumPy` and R).
-fn quantile(sorted: &[f64], probability: f64) -> Option<f64> {
+pub(crate) fn quantile(sorted: &[f64], probability: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
     let position = probability * last as f64;
     #[expect(

@@ -190,6 +190,15 @@ impl Suite {
         }
     }
 
+    /// The numbers of days of each of its strata, in their order: the days of one network are a
+    /// stratum, unless each day has a different network.
+    pub(crate) fn strata(&self) -> Vec<usize> {
+        match self.drawn_from {
+            DrawnFrom::Cities => vec![self.days / CITIES.len(); CITIES.len()],
+            _ => vec![self.days],
+        }
+    }
+
     /// The name of the network whose shipped weights are meant. Days at random places are like
     /// those of `paper`.
     pub(crate) fn home(&self) -> &'static str {

@@ -10,7 +10,8 @@ use vertifleet_core::{Outputs, Stop, create_folder};
 use vertifleet_progress::Bars;
 use vertifleet_study::competitor::Selection;
 use vertifleet_study::evaluation::{
-    Evaluation, EvaluationRecords, EvaluationReport, RESULT, ResultFile, verify,
+    Evaluation, EvaluationRecords, EvaluationReport, RESULT, ResultFile, TrainingRun, check_runs,
+    verify,
 };
 use vertifleet_study::{SUITES, Suite};
 
@@ -35,6 +36,8 @@ pub(crate) fn run(arguments: &EvaluateArguments) -> Result<ExitCode, Failure> {
     let suites = suites(&arguments.suite)?;
     let (policies, models) = (&arguments.policies, &arguments.models);
     let selection = Selection { policies, models, seed: SEED };
+    let runs = runs(&arguments.methods);
+    check_runs(&runs, &policies.iter().map(String::as_str).collect::<Vec<_>>())?;
     let mut outputs = Outputs::new(arguments.force);
     reads_models(models.iter().map(|(_, model)| model), &mut outputs);
     // Everything is checked before the first day is played.
@@ -53,7 +56,7 @@ pub(crate) fn run(arguments: &EvaluateArguments) -> Result<ExitCode, Failure> {
         eprintln!("{}: {}", suite.name, suite.description);
         let played = evaluation.run(command(), &never, &Bars)?;
         if let Some(folder) = &arguments.results {
-            write_results(&played, folder, &arguments.about)?;
+            write_results(&played, folder, &arguments.about, &runs)?;
         }
         records.push(played);
     }
@@ -92,14 +95,21 @@ fn write_results(
     records: &EvaluationRecords,
     folder: &Path,
     about: &[(String, String)],
+    runs: &BTreeMap<String, TrainingRun>,
 ) -> Result<(), Failure> {
     let about: BTreeMap<String, String> = about.iter().cloned().collect();
-    for result in records.results(&about) {
+    for result in records.results(&about, runs)? {
         let path = folder.join(ResultFile::file_name(&result.suite, &result.policy.name));
         result.write(&path)?;
         eprintln!("result: {}", path.display());
     }
     Ok(())
+}
+
+/// The training runs of policies with methods; their seeds are those of the weights.
+fn runs(methods: &[(String, String)]) -> BTreeMap<String, TrainingRun> {
+    let run = |method: &String| TrainingRun { method: method.clone(), training_seed: None };
+    methods.iter().map(|(policy, method)| (policy.clone(), run(method))).collect()
 }
 
 /// Verifies every file; the exit code is 1 if a claim does not hold.

@@ -162,7 +162,7 @@ fn draw(summary: &ComparisonReport, measure: &Measure, source: &str) -> Figure {
         canvas.diamond((scale.pixel((measure.mean)(policy)), middle), 4.6, mark);
     }
     Figure {
-        slug: measure.slug,
+        slug: measure.slug.into(),
         caption: format!(
             "{source}Box: middle half of the days; line in it: median; whiskers: at most 1.5 times as long as the box."
         ),

@@ -50,7 +50,7 @@ pub(super) fn figure(summary: &ComparisonReport) -> Option<Figure> {
     draw_mean(&mut canvas, &scale, comparison);
     draw_key(&mut canvas, comparison);
     Some(Figure {
-        slug: "figure-day-by-day",
+        slug: "figure-day-by-day".into(),
         caption: caption(comparison, differences.len()),
         svg: canvas.into_svg(),
     })

@@ -63,7 +63,7 @@ pub(super) fn figure(report: &SizeReport) -> Figure {
         canvas.text_on_lines((point.0, point.1 + below), label, name);
     }
     Figure {
-        slug: "figure-designs",
+        slug: "figure-designs".into(),
         caption: "Designs with equally many aircraft differ in their types, or in stands and chargers. The line from a design to its tick is \
                   what its schedule leaves, at most."
             .to_owned(),

@@ -58,7 +58,7 @@ pub(super) fn figure(report: &SweepReport) -> Option<Figure> {
     );
     canvas.text((16.0, TOP - 10.0), Lettering::SMALL, &shortened(second, 60));
     Some(Figure {
-        slug: "figure-heat-map",
+        slug: "figure-heat-map".into(),
         caption: "The two settings that matter most. Darker is more; the frame marks the best pair. Where other settings were varied \
                   too, cells are means over them. An empty cell had no place for its fleet."
             .to_owned(),

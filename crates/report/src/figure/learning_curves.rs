@@ -125,7 +125,11 @@ fn draw(
     for (lines, place) in lines.iter().zip(places) {
         draw_key(&mut canvas, lines, place);
     }
-    Some(Figure { slug: chart.slug, caption: caption(summary, chart), svg: canvas.into_svg() })
+    Some(Figure {
+        slug: chart.slug.into(),
+        caption: caption(summary, chart),
+        svg: canvas.into_svg(),
+    })
 }
 
 /// Names the network of the curves' days: every policy that has a curve was trained on the network

@@ -62,7 +62,7 @@ pub(super) fn curves(report: &SweepReport) -> Option<Figure> {
         draw_panel(&mut canvas, effect, &panel, &y);
     }
     Some(Figure {
-        slug: "figure-response-curves",
+        slug: "figure-response-curves".into(),
         caption: format!(
             "All panels have the same vertical scale, so that settings can be compared by their slopes. Designs of a panel differ in \
              the other settings too, over which it takes the mean.{}",

@@ -51,7 +51,7 @@ pub(super) fn figure(report: &SweepReport) -> Option<Figure> {
         &typeset(&note),
     );
     Some(Figure {
-        slug: "figure-tornado",
+        slug: "figure-tornado".into(),
         caption: format!(
             "Each bar reaches from the value with the lowest mean profit to the one with the highest, which are written at its ends.{}",
             report.how_effects_were_found()

@@ -53,6 +53,7 @@ fn bounded(days: usize) -> ComparisonRecords {
         decision_ns: None,
         sees: vertifleet_study::Sees::WholeDay,
         weights_sha256: None,
+        training_seed: None,
         ..best
     };
     for (day, number) in plan.days.iter_mut().zip(0_u32..) {

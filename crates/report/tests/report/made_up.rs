@@ -77,6 +77,7 @@ pub(crate) fn study(days: usize) -> ComparisonRecords {
             .collect(),
         sees: vertifleet_study::Sees::Present,
         weights_sha256: None,
+        training_seed: None,
         decision_ns: Some(outline.decision_ns),
     });
     let policies = policies.collect();

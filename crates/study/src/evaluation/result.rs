@@ -39,6 +39,10 @@ pub struct ResultFile {
     pub suite: String,
     /// The policy.
     pub policy: ResultPolicy,
+    /// The training run that made the policy; `None` for a policy that was not trained, and in
+    /// files of programs that did not write it. This cannot be verified from choices.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub run: Option<TrainingRun>,
     /// What the authors say about it, which cannot be verified: days and seeds of training,
     /// training budget, code.
     pub about: BTreeMap<String, String>,
@@ -74,6 +78,17 @@ pub struct ResultPolicy {
     pub decision_ns: Option<LatencySummary>,
 }
 
+/// One of the training runs of a method. Runs of one method differ in their seeds alone.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrainingRun {
+    /// The name of the method.
+    pub method: String,
+    /// The seed of the run; `None` if it is not known.
+    #[serde(deserialize_with = "Option::deserialize")]
+    pub training_seed: Option<u64>,
+}
+
 /// A day of a result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -92,10 +107,21 @@ pub struct ResultDay {
 }
 
 impl EvaluationRecords {
-    /// The result of every policy; `about` is what the authors say about them.
-    pub fn results(&self, about: &BTreeMap<String, String>) -> Vec<ResultFile> {
+    /// The result of every policy. `about` is what the authors say about them, and `runs` has the
+    /// training runs that made them, by the name of the policy. The run of a policy that is not
+    /// among them is of a method with the policy's name, if its weights have a seed.
+    ///
+    /// # Errors
+    /// Returns [`Error::Asked`] if weights have another seed than the run.
+    pub fn results(
+        &self,
+        about: &BTreeMap<String, String>,
+        runs: &BTreeMap<String, TrainingRun>,
+    ) -> Result<Vec<ResultFile>, Error> {
         let shares = PolicyShare::of_all(&self.policies);
-        let result = |(policy, share): (&PolicyRecord, PolicyShare)| ResultFile {
+        let runs: Vec<Option<TrainingRun>> =
+            self.policies.iter().map(|policy| run_of(policy, runs)).collect::<Result<_, _>>()?;
+        let result = |((policy, share), run): ((&PolicyRecord, PolicyShare), _)| ResultFile {
             format: RESULT_FORMAT.to_owned(),
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
             command: self.command.clone(),
@@ -107,13 +133,49 @@ impl EvaluationRecords {
                 weights_sha256: policy.weights_sha256.clone(),
                 decision_ns: policy.decision_ns,
             },
+            run,
             about: about.clone(),
             bound_share: share.bound_share,
             lowest_bound_share: share.lowest_bound_share,
             profit_usd: mean_profit_usd(&policy.days),
             days: policy.days.iter().zip(&self.hashes).map(result_day).collect(),
         };
-        self.policies.iter().zip(shares).map(result).collect()
+        Ok(self.policies.iter().zip(shares).zip(runs).map(result).collect())
+    }
+}
+
+/// Checks that all runs are of policies with these names.
+///
+/// # Errors
+/// Returns [`Error::Asked`] for the first run that is not.
+pub fn check_runs(runs: &BTreeMap<String, TrainingRun>, policies: &[&str]) -> Result<(), Error> {
+    match runs.keys().find(|name| !policies.contains(&name.as_str())) {
+        None => Ok(()),
+        Some(name) => Err(Error::Asked {
+            rule: format!("a method is given for {name:?}, which is not among the policies"),
+            hint: "add the name to the policies",
+        }),
+    }
+}
+
+/// The training run of a policy, with the seed that its weights state.
+fn run_of(
+    policy: &PolicyRecord,
+    runs: &BTreeMap<String, TrainingRun>,
+) -> Result<Option<TrainingRun>, Error> {
+    let seed = policy.training_seed.map(u64::from);
+    let Some(TrainingRun { method, training_seed }) = runs.get(&policy.name) else {
+        let run = |seed| TrainingRun { method: policy.name.clone(), training_seed: Some(seed) };
+        return Ok(seed.map(run));
+    };
+    match (seed, training_seed) {
+        (Some(seed), Some(given)) if seed != *given => Err(Error::Asked {
+            rule: format!("{:?} has weights of a run with seed {seed}, not {given}", policy.name),
+            hint: "leave the seed out where weights state it",
+        }),
+        _ => {
+            Ok(Some(TrainingRun { method: method.clone(), training_seed: seed.or(*training_seed) }))
+        }
     }
 }
 

@@ -15,6 +15,7 @@ use vertifleet_sim::{DayTotals, Simulation, Trace};
 use super::result::{ResultDay, ResultFile, choices_text, shares};
 use crate::error::Error;
 use crate::record::{DayRecord, mean_profit_usd};
+use crate::share::share;
 use crate::statistics::Estimate;
 use crate::suite::{Suite, SuiteDay};
 
@@ -51,17 +52,29 @@ pub struct Verification {
 /// requested.
 pub fn verify(result: &ResultFile, stop: &Stop) -> Result<Verification, Error> {
     let suite = Suite::find(&result.suite)?;
+    let days =
+        if can_be_drawn(result, &suite) { suite.draw_with_bounds(stop)? } else { Vec::new() };
+    Ok(verify_on(result, &suite, &days).0)
+}
+
+/// Whether the days of the suite may be drawn for this file. A short file must not make the program
+/// draw and bound a million random networks.
+pub(crate) fn can_be_drawn(result: &ResultFile, suite: &Suite) -> bool {
+    suite.is_frozen() || result.days.len() == suite.days
+}
+
+/// Verifies a result on the days of its suite, and returns the share of the bound of each day that
+/// could be played.
+pub(crate) fn verify_on(
+    result: &ResultFile,
+    suite: &Suite,
+    days: &[SuiteDay],
+) -> (Verification, Vec<f64>) {
     let mut findings = Vec::new();
     if result.days.len() != suite.days {
         let (found, expected) = (result.days.len(), suite.days);
         findings.push(format!("days: {found} in the file, {expected} in the suite"));
     }
-    // A short file must not make the program draw and bound a million random networks.
-    let days = if suite.is_frozen() || findings.is_empty() {
-        suite.draw_with_bounds(stop)?
-    } else {
-        Vec::new()
-    };
     let verified: Vec<Result<DayRecord, String>> =
         days.par_iter().zip(&result.days).map(|(day, claim)| verified_day(day, claim)).collect();
     let mut records = Vec::with_capacity(verified.len());
@@ -82,7 +95,7 @@ pub fn verify(result: &ResultFile, stop: &Stop) -> Result<Verification, Error> {
         findings.extend(differences("bound_share", &result.bound_share, &bound_share));
         findings.extend(differences("profit_usd", &result.profit_usd, &profit_usd));
     }
-    Ok(Verification {
+    let verification = Verification {
         suite: result.suite.clone(),
         policy: result.policy.name.clone(),
         days: suite.days,
@@ -90,7 +103,8 @@ pub fn verify(result: &ResultFile, stop: &Stop) -> Result<Verification, Error> {
         bound_share: whole.then_some(bound_share),
         profit_usd: whole.then_some(profit_usd),
         findings,
-    })
+    };
+    (verification, records.iter().map(share).collect())
 }
 
 /// What is claimed of an estimate otherwise than it is found.

@@ -23,7 +23,7 @@ fn evaluated(suite: &str, policies: &[&str]) -> EvaluationRecords {
 static HONEST: LazyLock<ResultFile> = LazyLock::new(|| {
     let records = evaluated("paper-100", &["greedy"]);
     let about = BTreeMap::from([("training".to_owned(), "none".to_owned())]);
-    records.results(&about).remove(0)
+    records.results(&about, &BTreeMap::new()).expect("runs without names").remove(0)
 });
 
 #[test]
@@ -67,7 +67,8 @@ fn random_networks_are_those_of_the_suite_with_bounds_that_are_proven() {
         assert!((1.0..1.01).contains(&looser), "slices of three minutes in place of one: {looser}");
     }
     let records = evaluated("random:2", &["greedy", "random"]);
-    let result = records.results(&BTreeMap::new()).remove(0);
+    let results = records.results(&BTreeMap::new(), &BTreeMap::new());
+    let result = results.expect("runs without names").remove(0);
     let verification = verify(&result, &Stop::default()).expect("networks by number");
     assert!(verification.valid, "{verification}");
     let many = ResultFile { suite: "random:1000000".to_owned(), ..result };
