@@ -9,7 +9,7 @@ use vertifleet_core::{self as core, check_output, create_folder};
 use vertifleet_progress::Bars;
 use vertifleet_study::competitor::Selection;
 use vertifleet_study::evaluation::{
-    self as study, EvaluationRecords, EvaluationReport, ResultFile,
+    self as study, EvaluationRecords, EvaluationReport, ResultFile, TrainingRun,
 };
 use vertifleet_study::{DayRecord, Error, PolicyRecord, PolicySource, SUITES, Suite};
 
@@ -105,18 +105,30 @@ impl Evaluation {
 
     /// Writes a result file for each suite and policy into a folder, and returns their paths.
     /// `about` is what you say about the policy, as ``{"training": "none"}``; the protocol lists
-    /// what is expected. An existing file that is read-only or not a result is replaced only with
-    /// `force`.
-    #[pyo3(signature = (folder, *, about = BTreeMap::new(), force = false))]
+    /// what is expected. `runs` names the training run that a policy is, for `board`, as
+    /// ``{"mine-2": ("mine", 2)}``: its method and its seed, which may be None where weights of
+    /// Vertifleet state it. An existing file that is read-only or not a result is replaced only
+    /// with `force`.
+    #[pyo3(signature = (folder, *, about = BTreeMap::new(), runs = BTreeMap::new(), force = false))]
     fn save(
         &self,
         folder: PathBuf,
         about: BTreeMap<String, String>,
+        runs: BTreeMap<String, (String, Option<u64>)>,
         force: bool,
     ) -> Result<Vec<PathBuf>, Failure> {
-        create_folder(&folder)?;
+        let run =
+            |(policy, (method, training_seed))| (policy, TrainingRun { method, training_seed });
+        let runs: BTreeMap<String, TrainingRun> = runs.into_iter().map(run).collect();
+        let names = self.suites.iter().flat_map(|suite| {
+            let left_out = suite.left_out.iter().map(|one| one.policy.as_str());
+            suite.policies.iter().map(|policy| policy.name.as_str()).chain(left_out)
+        });
+        study::check_runs(&runs, &names.collect::<Vec<_>>())?;
+        let results = self.suites.iter().map(|suite| suite.results(&about, &runs));
         let results: Vec<ResultFile> =
-            self.suites.iter().flat_map(|suite| suite.results(&about)).collect();
+            results.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect();
+        create_folder(&folder)?;
         let path = |result: &ResultFile| {
             folder.join(ResultFile::file_name(&result.suite, &result.policy.name))
         };

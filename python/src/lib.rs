@@ -12,6 +12,7 @@
 )]
 
 mod batch;
+mod board;
 mod buffers;
 mod comparison;
 mod day;
@@ -47,6 +48,8 @@ use pyo3::prelude::pymodule;
 mod _native {
     #[pymodule_export]
     use crate::batch::Batch;
+    #[pymodule_export]
+    use crate::board::{Board, board};
     #[pymodule_export]
     use crate::comparison::{Comparison, check_comparison, compare, read_days};
     #[pymodule_export]

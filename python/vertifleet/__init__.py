@@ -16,8 +16,9 @@ from importlib.metadata import version
 from vertifleet._compare import compare
 from vertifleet._dataset import Dataset, dataset
 from vertifleet._errors import Error
-from vertifleet._evaluate import SUITES, Suite, Verification, evaluate, suite, verify
+from vertifleet._evaluate import SUITES, Suite, Verification, board, evaluate, suite, verify
 from vertifleet._native import (
+    Board,
     Bound,
     Comparison,
     Evaluation,
@@ -47,6 +48,7 @@ __all__ = [
     "SUITES",
     "AircraftType",
     "BatchPolicy",
+    "Board",
     "Bound",
     "Comparison",
     "Dataset",
@@ -72,6 +74,7 @@ __all__ = [
     "Verification",
     "View",
     "__version__",
+    "board",
     "bound",
     "check",
     "compare",

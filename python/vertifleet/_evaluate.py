@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vertifleet import _native
 from vertifleet._compare import PolicySource
 from vertifleet._errors import Error
-from vertifleet._native import Evaluation, Network, Scenario
+from vertifleet._native import Board, Evaluation, Network, Scenario
 from vertifleet._own_policy import FunctionPolicy
 
 RULES = ("random", "greedy", "prices", "rolling", "plan")
@@ -133,6 +133,28 @@ def verify(result: str | os.PathLike[str]) -> Verification:
         mean("profit_usd"),
         tuple(found["findings"]),
     )
+
+
+def board(results: str | os.PathLike[str] | Iterable[str | os.PathLike[str]]) -> Board:
+    """The methods behind result files, with their training runs as the unit.
+
+    Each file is one run of a method on a suite. All files are verified first. For each suite, the methods
+    are sorted by what they see, then by the mean share of the certified bound over runs and days. Intervals
+    are of samples of runs and days with replacement, so they include what another training seed would
+    change. The interquartile mean, the optimality gap and the performance profiles are those of rliable
+    (R. Agarwal and others, 2021).
+
+    Args:
+        results: a result file of `Evaluation.save` or ``vertifleet evaluate --results``, a folder with
+            them, or several.
+
+    Raises:
+        Error: V413 if a file is not a result, V415 if one does not verify, V416 if two are of the same
+            run, or if runs of one method see different things.
+    """
+    paths = [results] if isinstance(results, (str, os.PathLike)) else list(results)
+    shown = str(os.fspath(paths[0])) if len(paths) == 1 else f"{len(paths)} files"
+    return _native.board(paths, f"vertifleet.board({shown!r})")
 
 
 @dataclass(frozen=True, eq=False, repr=False)

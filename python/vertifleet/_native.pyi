@@ -17,6 +17,7 @@ _Shown: TypeAlias = tuple[_Float32, NDArray[np.int8]]
 
 __all__ = [
     "Batch",
+    "Board",
     "Bound",
     "Comparison",
     "Days",
@@ -34,6 +35,7 @@ __all__ = [
     "Trace",
     "Training",
     "View",
+    "board",
     "bound",
     "check",
     "check_comparison",
@@ -497,10 +499,19 @@ class Evaluation:
         """Warnings about what is allowed but probably not intended, such as a policy that cannot play a
         suite.
         """
-    def save(self, folder: _Path, *, about: Mapping[str, str] = ..., force: bool = False) -> list[Path]:
+    def save(
+        self,
+        folder: _Path,
+        *,
+        about: Mapping[str, str] = ...,
+        runs: Mapping[str, tuple[str, int | None]] = ...,
+        force: bool = False,
+    ) -> list[Path]:
         """Writes a result file for each suite and policy into a folder, and returns their paths. `about`
         is what you say about the policy, as ``{"training": "none"}``; the protocol lists what is
-        expected. An existing file that is read-only or not a result is replaced only with `force`.
+        expected. `runs` names the training run that a policy is, for `board`, as
+        ``{"mine-2": ("mine", 2)}``: its method and its seed, which may be None where weights of Vertifleet
+        state it. An existing file that is read-only or not a result is replaced only with `force`.
         """
 
 def evaluate(
@@ -512,6 +523,24 @@ def evaluate(
     command: str,
 ) -> Evaluation:
     """Plays a suite with policies; the others are measured against the first."""
+
+@final
+class Board:
+    """The methods behind result files, suite by suite: by what they see, then by share of the certified
+    bound, with intervals over training runs and days.
+    """
+    def _repr_html_(self) -> str: ...
+    @property
+    def summary(self) -> dict[str, Any]:
+        """All numbers, as `vertifleet board --json` prints them."""
+    def report(self, folder: _Path, *, force: bool = False) -> Path:
+        """Writes a page with tables and figures, and the same page in Markdown, into a folder, and returns
+        the path of the page. An earlier report in the folder is replaced, but a read-only one only with
+        `force`. A folder that holds anything else is refused, or, with `force`, kept under another name.
+        """
+
+def board(paths: Sequence[_Path], command: str) -> Board:
+    """Reads and verifies result files; `command` is the call that reports show."""
 
 def verify(path: _Path) -> dict[str, Any]:
     """Verifies a result file, and returns what was found as plain data."""
