@@ -1,6 +1,6 @@
 # The project's two commands are `make demo` and `make test`; the rest is for its developers.
 
-.PHONY: demo program check test test-all rust-test python-checked-test python-test console-test lint soak database console console-ready deny bench train suites notebooks python python-light wheel sdist prepare tools
+.PHONY: demo program check test test-all rust-test python-checked-test python-test console-test lint soak database console console-ready deny bench train suites board notebooks python python-light wheel sdist prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network. The dispatch service, half of a build, is left out.
 demo: prepare
@@ -117,6 +117,15 @@ train: program
 # The tables of the suites: hashes of their days and certified upper bounds. Changes only when a suite is added.
 suites: prepare
 	cargo run --release --locked -p vertifleet-study --example suites -- suites
+
+# The result files of our own policies, and the board, a page of the book that is made from all files in results/. Roll-outs
+# and planners take hours and are left out. Every further suite adds 20 to 270 kB a policy.
+BOARD = paper-100,disrupted-100,paper-quick-20
+board: program
+	./target/release/vertifleet evaluate --suite $(BOARD) --policies greedy,random,prices,gcaps-x,gcaps-full,gcaps,mlp --results results --about origin="shipped with the program"
+	./target/release/vertifleet board results --report out/board
+	mkdir -p docs/src/board
+	cp out/board/board.md out/board/figure-board-*.svg docs/src/board
 
 # Runs the notebooks and writes them as pages of the book.
 notebooks: python

@@ -1,5 +1,6 @@
 //! Tests of the program as its users run it.
 
+mod board;
 mod commands;
 mod common;
 mod compare_bound;
