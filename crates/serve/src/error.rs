@@ -376,8 +376,8 @@ pub enum Error {
     #[error("the address of the database must begin with postgres:// or postgresql://")]
     BadDatabase,
 
-    /// V629 token name in use. A token has or had this name, and the audit could not distinguish two
-    /// with one name. That includes revoked tokens.
+    /// V629 token name in use. A token has or had this name, and the audit could not distinguish
+    /// two with one name. That includes revoked tokens.
     ///
     /// Fix: choose another name.
     #[error("the name {name:?} was given to another token")]

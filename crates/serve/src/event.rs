@@ -274,8 +274,8 @@ pub(crate) enum EventKind {
         #[schema(format = Int64, maximum = 4_294_967_295u32)]
         passengers: u32,
     },
-    /// An earlier event is taken back: the day is as if it had never been reported. The clock of the
-    /// day may run back then. Later events must be possible without it.
+    /// An earlier event is taken back: the day is as if it had never been reported. The clock of
+    /// the day may run back then. Later events must be possible without it.
     #[schema(title = "CorrectedEvent")]
     Corrected {
         /// The number of the event.

@@ -1,5 +1,5 @@
-//! Names that people read in lists and in the audit: each character is visible, so that no two names
-//! look the same and none changes the text around it.
+//! Names that people read in lists and in the audit: each character is visible, so that no two
+//! names look the same and none changes the text around it.
 
 /// Whether a name has only printed characters: no control characters, and none that is invisible or
 /// changes the direction of the text.

@@ -13,9 +13,9 @@ const OTHER: &str = "other";
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, ToSchema)]
 pub(crate) struct EventNotice {
     /// The kind: `more_than_stands`, `against_the_rules`, `departed_out_of_service`,
-    /// `departed_unready`, `departed_before_landing`, `without_energy`, `below_reserve`, `too_fast`,
-    /// `charge_too_high`, `ready_too_soon`, `diverted`, `not_flown`, `overdue`, or `other` in logs of
-    /// earlier versions. Later versions may add kinds.
+    /// `departed_unready`, `departed_before_landing`, `without_energy`, `below_reserve`,
+    /// `too_fast`, `charge_too_high`, `ready_too_soon`, `diverted`, `not_flown`, `overdue`, or
+    /// `other` in logs of earlier versions. Later versions may add kinds.
     pub(crate) code: String,
     /// The notice in words.
     pub(crate) text: String,

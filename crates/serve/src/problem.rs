@@ -30,7 +30,7 @@ pub(crate) struct Problem {
     pub(crate) hint: Option<String>,
     /// The event of another client that came first, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) happened: Option<Happened>,
+    pub(crate) happened: Option<Box<Happened>>,
     /// The number of the event that was to be corrected.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) event: Option<u64>,
@@ -52,7 +52,7 @@ impl Problem {
             detail: error.to_string(),
             code,
             hint: error.hint().map(str::to_owned),
-            happened: happened(error).cloned(),
+            happened: happened(error).cloned().map(Box::new),
             event: correction.map(|(event, _)| event),
             blocked_by: correction.and_then(|(_, later)| later),
         }

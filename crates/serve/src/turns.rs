@@ -2,8 +2,8 @@
 //!
 //! The next turn goes to a token that may dispatch before one that may only read, then to the token
 //! with the fewest running computations, and among equal ones to the earliest request. No token has
-//! all turns, and those that may only read leave one to others. So a token with many requests delays
-//! itself and not others.
+//! all turns, and those that may only read leave one to others. So a token with many requests
+//! delays itself and not others.
 
 use std::cmp::Reverse;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -264,7 +264,7 @@ mod tests {
     /// Plays one order of the steps of three requests.
     fn play(all: usize, choices: &mut Choices) {
         let turns = Turns::new(all);
-        let actors = ["one", "one", "two"];
+        let actors = ["one", "one", "one"];
         let mut requests: [Request; 3] = Default::default();
         loop {
             let ways: Vec<(usize, usize)> = (0..requests.len())

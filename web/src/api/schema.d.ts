@@ -1042,9 +1042,9 @@ export interface components {
             aircraft?: string | null;
             /**
              * @description The kind: `more_than_stands`, `against_the_rules`, `departed_out_of_service`,
-             *     `departed_unready`, `departed_before_landing`, `without_energy`, `below_reserve`, `too_fast`,
-             *     `charge_too_high`, `ready_too_soon`, `diverted`, `not_flown`, `overdue`, or `other` in logs of
-             *     earlier versions. Later versions may add kinds.
+             *     `departed_unready`, `departed_before_landing`, `without_energy`, `below_reserve`,
+             *     `too_fast`, `charge_too_high`, `ready_too_soon`, `diverted`, `not_flown`, `overdue`, or
+             *     `other` in logs of earlier versions. Later versions may add kinds.
              */
             code: string;
             /** @description The notice in words. */

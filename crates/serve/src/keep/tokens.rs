@@ -46,12 +46,13 @@ impl Tokens {
     /// Makes a token and returns its text, which cannot be shown again.
     ///
     /// # Errors
-    /// Returns [`Error::NameTaken`] if another one has or had this name, [`Error::BadRequest`] if the
-    /// name has characters that are not printed, and [`Error::Store`] if it cannot be stored.
+    /// Returns [`Error::NameTaken`] if another one has or had this name, [`Error::BadRequest`] if
+    /// the name has characters that are not printed, and [`Error::Store`] if it cannot be stored.
     pub fn make(&self, name: &str, role: Role) -> Result<String, Error> {
         if name.trim().is_empty() || !is_printed(name) {
-            let rule = format!("the name of a token has only printed characters, not {name:?}");
-            return Err(Error::BadRequest { rule });
+            return Err(Error::BadRequest {
+                rule: format!("the name of a token has only printed characters, not {name:?}"),
+            });
         }
         let (token, text) = StoredToken::draw(name, role, now_ms())?;
         let refused = |error| match error {

@@ -53,8 +53,8 @@ const ONE_NAME: &str =
 /// The lock of PostgreSQL under which tables are created: the letters of `fleet`.
 const LOCK: i64 = 0x66_6c65_6574;
 
-/// The upgrades of older stores, each with the last version that needs it. Version 6 only adds kinds
-/// of events, so that earlier programs refuse the store instead of calling its logs damaged.
+/// The upgrades of older stores, each with the last version that needs it. Version 6 only adds
+/// kinds of events, so that earlier programs refuse the store instead of calling its logs damaged.
 const ADDED_AFTER: [(&str, &str); 10] = [
     ("1", "ALTER TABLE days ADD COLUMN date TEXT NOT NULL DEFAULT ''"),
     ("1", "ALTER TABLE days ADD COLUMN time_zone TEXT NOT NULL DEFAULT ''"),

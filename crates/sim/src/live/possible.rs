@@ -56,16 +56,16 @@ impl LiveDay {
         }
         let row = &self.decisions[flight].row;
         let kind = self.scenario().aircraft[row.aircraft.at()].kind;
-        let has_mwh = self.charge_before_mwh(flight, takeoff);
+        let charged_mwh = self.charge_before_mwh(flight, takeoff);
         let flight_mwh = whole_mwh(row.energy_kwh);
         let needs_mwh = self.scenario().aircraft_types[kind.at()].needed_mwh(row.energy_kwh);
-        if has_mwh >= needs_mwh {
+        if charged_mwh >= needs_mwh {
             return None;
         }
         let (aircraft, to) = (self.id(row.aircraft), self.vertiport_id(to));
         let kwh = |mwh: u64| mwh as f64 / 1e6;
-        let has_kwh = kwh(has_mwh);
-        Some(if has_mwh < flight_mwh {
+        let has_kwh = kwh(charged_mwh);
+        Some(if charged_mwh < flight_mwh {
             Notice::WithoutEnergy { aircraft, to, has_kwh, needs_kwh: kwh(flight_mwh) }
         } else {
             Notice::BelowReserve { aircraft, to, has_kwh, needs_kwh: kwh(needs_mwh) }
@@ -117,7 +117,7 @@ impl LiveDay {
         time: Time,
         charge_kwh: Option<f64>,
     ) -> Option<Notice> {
-        let charge_mwh = whole_mwh(charge_kwh?);
+        let reported_mwh = whole_mwh(charge_kwh?);
         let kind = self.scenario().aircraft[aircraft.at()].kind;
         let (expected_mwh, spare_mwh) = match self.aircraft[aircraft.at()].phase {
             Phase::Standing => {
@@ -131,9 +131,9 @@ impl LiveDay {
                 (charged_mwh.saturating_sub(flight_mwh), flight_mwh / 2)
             }
         };
-        (charge_mwh > expected_mwh + spare_mwh).then(|| Notice::ChargeTooHigh {
+        (reported_mwh > expected_mwh + spare_mwh).then(|| Notice::ChargeTooHigh {
             aircraft: self.id(aircraft),
-            charge_kwh: charge_mwh as f64 / 1e6,
+            charge_kwh: reported_mwh as f64 / 1e6,
             expected_kwh: expected_mwh as f64 / 1e6,
         })
     }

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use proptest::prelude::{ProptestConfig, Strategy, prop, prop_assert_eq, prop_oneof, proptest};
+use proptest::prelude::{
+    Just, ProptestConfig, Strategy, prop, prop_assert_eq, prop_oneof, proptest,
+};
 use vertifleet_core::{Closure, Disturbances, Route, Scenario, Time, VertiportIx};
 use vertifleet_sim::live::{LiveDay, Report, Routes};
 use vertifleet_testkit::paper_day;
@@ -26,12 +28,21 @@ fn day_with(known: &[(usize, usize, u32, u32)]) -> Arc<Scenario> {
     Arc::new(day.check("a day with closures").expect("a day"))
 }
 
-/// A report about routes, in minutes; `None` is a report that they are open.
+/// What is reported about routes.
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    Open,
+    Closed,
+    /// Closed until a minute.
+    Until(u32),
+}
+
+/// A report about routes at a minute.
 #[derive(Debug, Clone)]
 struct Reported {
     routes: Routes,
     time: u32,
-    until: Option<Option<u32>>,
+    kind: Kind,
 }
 
 impl Reported {
@@ -44,9 +55,11 @@ impl Reported {
     }
 
     fn report(&self) -> Report {
-        match self.until {
-            Some(until) => Report::Closed { routes: self.routes, until: until.map(at) },
-            None => Report::Reopened { routes: self.routes },
+        let routes = self.routes;
+        match self.kind {
+            Kind::Open => Report::Reopened { routes },
+            Kind::Closed => Report::Closed { routes, until: None },
+            Kind::Until(minute) => Report::Closed { routes, until: Some(at(minute)) },
         }
     }
 }
@@ -61,9 +74,10 @@ fn is_closed(
 ) -> bool {
     let latest = reports.iter().rfind(|report| report.is_about(pair));
     let begins_later = |start| latest.is_none_or(|report| start > report.time);
-    let by_report = match latest.and_then(|report| report.until) {
-        None => false,
-        Some(until) => until.is_none_or(|until| minute < until),
+    let by_report = match latest.map(|report| report.kind) {
+        None | Some(Kind::Open) => false,
+        Some(Kind::Closed) => true,
+        Some(Kind::Until(until)) => minute < until,
     };
     by_report
         || known.iter().any(|&(from, to, start, end)| {
@@ -79,6 +93,15 @@ fn any_routes() -> impl Strategy<Value = Routes> {
     prop_oneof![3 => way, 1 => vertiport().prop_map(Routes::Of)]
 }
 
+/// A kind of report; a closure with an end has its duration.
+fn any_kind() -> impl Strategy<Value = Kind> {
+    prop_oneof![
+        3 => Just(Kind::Open),
+        2 => Just(Kind::Closed),
+        5 => (0..150_u32).prop_map(Kind::Until),
+    ]
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(256))]
 
@@ -86,7 +109,7 @@ proptest! {
     fn the_latest_report_about_a_route_wins(
         known in prop::collection::vec((0..4_usize, 0..3_usize, 0..300_u32, 1..200_u32), 0..5),
         reports in prop::collection::vec(
-            (any_routes(), 0..60_u32, prop::option::of(prop::option::weighted(0.7, 0..150_u32))),
+            (any_routes(), 0..60_u32, any_kind()),
             1..12,
         ),
     ) {
@@ -96,10 +119,13 @@ proptest! {
             .collect();
         let mut live = LiveDay::new(day_with(&known));
         let (mut now, mut taken) = (0, Vec::new());
-        for (routes, later, lasts) in reports {
+        for (routes, later, kind) in reports {
             now += later;
-            let until = lasts.map(|lasts| lasts.map(|lasts| now + lasts));
-            let report = Reported { routes, time: now, until };
+            let kind = match kind {
+                Kind::Until(lasts) => Kind::Until(now + lasts),
+                other => other,
+            };
+            let report = Reported { routes, time: now, kind };
             live.take(at(now), &report.report()).expect("the routes exist");
             taken.push(report);
             let all = (0..VERTIPORTS).flat_map(|from| (0..VERTIPORTS).map(move |to| (from, to)));

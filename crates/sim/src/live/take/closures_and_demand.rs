@@ -11,8 +11,8 @@ use crate::live::report::{Booking, ReportError, Routes};
 const MOST_PASSENGERS: u32 = 1_000_000;
 
 impl LiveDay {
-    /// Closes routes. The report replaces the closures in force on them, so a dated closure may also
-    /// end earlier than was reported before.
+    /// Closes routes. The report replaces the closures in force on them, so a dated closure may
+    /// also end earlier than was reported before.
     pub(super) fn close(
         &mut self,
         time: Time,
