@@ -186,8 +186,8 @@ fn the_loser_of_a_race_is_told_what_happened() {
     let proposal = format!("{day}/aircraft/A01/decision");
     let proposal = service.send("GET", &proposal, &[("authorization", anna.as_str())], b"").json;
     let to = proposal["alternatives"].as_array().expect("a list").iter();
-    let to = to.filter(|one| one.get("impossible").is_none()).map(|one| text(one, "to"));
-    let to = to.filter(|to| *to != text(&proposal, "at")).next_back().expect("a flight").to_owned();
+    let mut to = to.filter(|one| one.get("impossible").is_none()).map(|one| text(one, "to"));
+    let to = to.rfind(|to| *to != text(&proposal, "at")).expect("a flight").to_owned();
     let decide = json!({"aircraft": "A01", "to": to});
     assert_eq!(send(&anna, Some("0"), &path, &decide).status, 201);
     let told = format!("A01 was sent to {to} by anna");
