@@ -202,6 +202,79 @@ test('events can be reported by hand', async ({ page, program, fleet }) => {
   })
 })
 
+test('a closure until further notice is reported, and its end is set once', async ({
+  page,
+  program,
+  fleet,
+}) => {
+  await open(page, program, fleet)
+  await page.keyboard.press('e')
+  const dialog = page.getByRole('dialog', { name: 'Report an event' })
+  const what = dialog.getByRole('combobox', { name: 'What happened' })
+  await what.selectOption('delayed')
+  await dialog.getByRole('textbox', { name: /Until/ }).fill('09:59')
+  await what.selectOption('closed')
+  const until = dialog.getByRole('textbox', { name: /Until/ })
+  await expect(until).toHaveValue('07:00:00')
+  await until.fill('')
+  await dialog.getByRole('textbox', { name: /Reason/ }).fill('fog')
+  await expect(until).toHaveValue('')
+  await dialog.getByRole('button', { name: 'Report', exact: true }).click()
+  await expect(dialog).toBeHidden()
+  const { event } = (await fleet.events()).at(-1) ?? {}
+  expect(event).toMatchObject({ type: 'closed', reason: 'fog' })
+  expect(event).not.toHaveProperty('until')
+  // Nothing of this report is left for the next.
+  await page.keyboard.press('e')
+  await expect(dialog.getByRole('textbox', { name: /Reason/ })).toHaveValue('')
+  await expect(until).toHaveValue('07:00:00')
+})
+
+test('a far step of the clock is confirmed, and can be taken back in the log', async ({
+  page,
+  program,
+  fleet,
+}) => {
+  await open(page, program, fleet)
+  await page.keyboard.press('e')
+  const dialog = page.getByRole('dialog', { name: 'Report an event' })
+  await dialog.getByRole('combobox', { name: 'What happened' }).selectOption('clock')
+  await dialog.getByRole('textbox', { name: /When/ }).fill('09:59')
+  await dialog.getByRole('button', { name: 'Report', exact: true }).click()
+  await expect(dialog.getByRole('alert').filter({ hasText: 'from 06:00:00 to 09:59:00' })).toBeVisible()
+  expect(await fleet.events()).toHaveLength(0)
+  await dialog.getByRole('button', { name: 'Report all the same' }).click()
+  await expect(page.locator('header .clock')).toHaveText(/^09:59/)
+
+  await open(page, program, fleet, 'log')
+  await page.getByRole('row').filter({ hasText: 'The clock advanced' }).getByRole('button').first().click()
+  await page.getByRole('button', { name: 'Take back this event…' }).click()
+  await page.getByRole('textbox', { name: /Reason/ }).fill('typed wrong')
+  await page.getByRole('button', { name: 'Take back', exact: true }).click()
+  await expect(page.getByText('Event 1 was taken back').first()).toBeVisible()
+  await expect(page.locator('header .clock')).toHaveText(/^06:0/)
+  expect((await fleet.state()).now).toBe('06:00:00')
+})
+
+test('all waiting aircraft are decided at once, and an acknowledged alert is so for all', async ({
+  page,
+  context,
+  program,
+  fleet,
+}) => {
+  await fleet.report({ type: 'out_of_service', aircraft: 'A06', reason: 'bird strike' })
+  await open(page, program, fleet)
+  await page.getByRole('button', { name: 'Accept all 5' }).click()
+  await expect(page.getByText('5 decisions accepted as advised.')).toBeVisible()
+  await expect(waiting(page)).toHaveCount(0)
+  await page.keyboard.press('w')
+  await page.getByRole('button', { name: 'Acknowledge', exact: true }).first().click()
+  await expect(page.getByText('Every alert is acknowledged')).toBeVisible()
+  const other = await context.newPage()
+  await open(other, program, fleet)
+  await expect(other.getByText('Every alert is acknowledged')).toBeVisible()
+})
+
 test('an error of the service is shown with its code and remedy', async ({ page, program, fleet }) => {
   await open(page, program, fleet, 'what-if')
   await page.getByRole('combobox', { name: 'Change', exact: true }).selectOption('aircraft')

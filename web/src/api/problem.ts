@@ -22,6 +22,8 @@ export class ProblemError extends Error {
     readonly code: string,
     readonly detail: string,
     readonly hint: string | undefined,
+    /** The report or decision of another user that came first, in words. */
+    readonly happened?: string,
   ) {
     super(detail)
   }
@@ -43,7 +45,10 @@ export function noAnswer(cause: unknown): ProblemError {
  * be anything.
  */
 export function problemOf(status: number, body: unknown): ProblemError {
-  if (isProblem(body)) return new ProblemError(status, body.code, body.detail, body.hint ?? undefined)
+  if (isProblem(body)) {
+    const { code, detail, hint, happened } = body
+    return new ProblemError(status, code, detail, hint ?? undefined, happened?.text)
+  }
   return new ProblemError(
     status,
     '',

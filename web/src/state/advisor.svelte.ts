@@ -98,12 +98,14 @@ export class Advisor {
           aircraft: shown.aircraft,
           ...(this.policy === undefined ? {} : { policy: this.policy }),
         }
+        let refused: ProblemError
         try {
           return { kind: 'taken', taken: await this.service.decide(this.day, asked, seq) }
         } catch (problem) {
           if (!(problem instanceof ProblemError) || problem.status !== PRECONDITION_FAILED) throw problem
+          refused = problem
         }
-        const now = await this.service.propose(this.day, shown.aircraft, this.policy)
+        const now = await this.#proposeAfter(refused, shown.aircraft)
         if (now.to !== shown.to) {
           this.newer = now
           return { kind: 'changed' }
@@ -113,6 +115,15 @@ export class Advisor {
       const last = { aircraft: shown.aircraft, to: shown.to }
       return { kind: 'taken', taken: await this.service.decide(this.day, last) }
     })
+  }
+
+  /** Asks again after a refusal. If the aircraft no longer waits, the refusal tells what came first. */
+  async #proposeAfter(refused: ProblemError, aircraft: string): Promise<Proposal> {
+    try {
+      return await this.service.propose(this.day, aircraft, this.policy)
+    } catch (problem) {
+      throw refused.happened === undefined ? problem : refused
+    }
   }
 
   /** Decides for an aircraft as the policy advises at present, whatever advice is displayed. */

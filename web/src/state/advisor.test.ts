@@ -2,6 +2,7 @@ import { beforeEach, describe, expect, it, vi } from 'vitest'
 import type { Service } from '../api/client'
 import { ProblemError } from '../api/problem'
 import type { NewDecision, Proposal } from '../api/types'
+import { problemText } from '../text/problems'
 import { Advisor } from './advisor.svelte'
 
 /**
@@ -121,4 +122,13 @@ it('an override has a destination and a reason', async () => {
   expect(service.decisions).toEqual([
     { aircraft: 'A01', to: 'V3', reason: 'the crew lives there', seq: undefined },
   ])
+})
+
+it('the loser of a race is told what came first', async () => {
+  const first = new ProblemError(412, 'V605', 'the day has gone on', undefined, 'A01 was sent to V3 by anna')
+  vi.advanceTimersByTime(1_000)
+  service.decide = () => Promise.reject(first)
+  service.propose = () => Promise.reject(new ProblemError(422, 'V604', 'it is on its way', undefined))
+  await expect(advisor.accept()).rejects.toBe(first)
+  expect(problemText(first).title).toBe('A01 was sent to V3 by anna.')
 })

@@ -59,6 +59,7 @@ export const en = {
   errors: {
     noAnswer: 'The service does not answer.',
     noAnswerHint: 'Every change that took effect is displayed. Try again when the connection is back.',
+    cameFirst: 'That came first, so nothing was sent.',
     notPermittedHint: 'Your token does not permit this.',
     code: (code: string) => `Error ${code}`,
     dismiss: 'Dismiss',

@@ -25,8 +25,10 @@ const lists: Readonly<Partial<Record<Missing, OtherView>>> = {
 }
 
 export function problemText(problem: ProblemError): ProblemText {
-  const { status, code, detail, hint } = problem
+  const { status, code, detail, hint, happened } = problem
   if (status === 0) return { title: text.errors.noAnswer }
+  // The loser of a race needs to know what came first, not which rule this breaks.
+  if (happened !== undefined) return { title: sentenceOf(happened), hint: text.errors.cameFirst, code }
   const missing = code === NOT_FOUND_CODE ? missingOf(detail) : undefined
   if (missing !== undefined) return notFound(missing.what, missing.id)
   const remedy = hint === undefined || isForPrograms(hint) ? undefined : sentenceOf(hint)
