@@ -1,5 +1,5 @@
-// Places, counts and finished flights come from the service's state, trace and events. They are right
-// without any outlook, and with one that is late; the plan is then shown as being computed.
+// Places, counts and finished flights come from the service's state, trace and events. They are
+// right without any outlook, and with one that is late; the plan is then shown as being computed.
 
 import type { Page } from '@playwright/test'
 import type { DayState, Outlook, TakenEvent } from '../src/api/types'
@@ -34,7 +34,7 @@ interface Known {
   trace: string
 }
 
-/** Each place, each flight under way and each count, as the pictures have them at the state's time. */
+/** Each place, flight under way and count, as the pictures have them at the state's time. */
 function pictured(record: DayRecord, state: DayState): unknown {
   const happened = { ...record, legs: record.legs.filter((leg) => !leg.is_expected) }
   const motion = new Motion(happened)

@@ -241,7 +241,7 @@ export function listed(alerts: readonly Alert[], acknowledged: DayState['acknowl
   return all.sort((one, other) => rank(one) - rank(other))
 }
 
-/** The alert for the headline. A full vertiport is in the list only, because it is an everyday state. */
+/** The headline. A full vertiport is in the list only, because it is an everyday state. */
 export function headlineOf(alerts: readonly ListedAlert[]): ListedAlert | undefined {
   return alerts.find(({ acknowledgedBy, matter }) => acknowledgedBy === undefined && matter.kind !== 'full')
 }

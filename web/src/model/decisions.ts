@@ -123,7 +123,7 @@ export function numberOf({ worth_usd, value }: Alternative): number | undefined 
   return value ?? worth_usd ?? undefined
 }
 
-/** How far the advised choice is ahead of the next, and by what; undefined if it is the only one. */
+/** How far the advised choice is ahead of the next; undefined if it is alone. */
 export interface Lead {
   of: string
   by: number
@@ -132,10 +132,14 @@ export interface Lead {
 }
 
 export function leadOf(proposal: Proposal): Lead | undefined {
-  const [first, second] = ranked(proposal).possible
+  // A choice that the policy does not consider may be worth more, and is no rival.
+  const [first, second] = ranked(proposal).possible.filter(
+    ({ to, value }) => to === proposal.to || value != null,
+  )
   const [mine, other] = [first && numberOf(first), second && numberOf(second)]
   if (first === undefined || second === undefined || mine === undefined || other === undefined)
     return undefined
+  if (mine < other) return undefined
   const [own, next] = [worthOf(first), worthOf(second)]
   const parts =
     own === undefined || next === undefined

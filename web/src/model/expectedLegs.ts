@@ -1,5 +1,6 @@
-// The expected legs of an outlook that still hold. Decisions may have been taken, undone or reported
-// since, so the plan of an aircraft that went another way is dropped until there is a newer outlook.
+// The expected legs of an outlook that still hold. Decisions may have been taken, undone or
+// reported since. The plan of an aircraft that went another way is dropped until there is a newer
+// outlook.
 
 import type { Leg, Outlook } from '../api/types'
 import { grouped } from './arrays'
@@ -50,7 +51,7 @@ export function expectedLegs(outlook: Outlook, scenario: Scenario, decided: LegR
   )
 }
 
-/** The expected legs of one aircraft after those that were decided since, if these went as planned. */
+/** The expected legs of one aircraft, if those that were decided since went as planned. */
 function stillExpected(planned: LegRecord[], decided: LegRecord[], begins_at: number): LegRecord[] {
   const past = planned.filter((leg) => !leg.is_expected)
   const isKnown = (leg: LegRecord) => past.some((one) => one.decided === leg.decided)

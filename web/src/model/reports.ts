@@ -103,8 +103,8 @@ export class Reports {
         this.#undo(aircraft, decided)
         break
       case 'departed': {
-        // A departure without a decision, or to another vertiport, is a decision of its own. The
-        // service enters it at the day's clock.
+        // A departure without a decision, or to another vertiport, is a new decision. The service
+        // enters it at the day's clock.
         const known = this.decision(aircraft, decided)
         const isOther = event.to != null && event.to !== known?.to
         const isSent = known !== undefined && !known.hasDeparted && known.landed === undefined && !isOther

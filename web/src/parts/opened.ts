@@ -1,5 +1,5 @@
-// Opening and closing a form or a list over the page, the same for all of them. At opening the focus
-// moves to the first control, and the keys of the view stop. At closing the focus goes back.
+// Opening and closing a form or a list over the page, the same for all of them. At opening the
+// focus moves to the first control, and the keys of the view stop. At closing the focus goes back.
 
 import type { Attachment } from 'svelte/attachments'
 import { untrack } from 'svelte'

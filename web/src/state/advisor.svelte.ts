@@ -117,7 +117,7 @@ export class Advisor {
     })
   }
 
-  /** Asks again after a refusal. If the aircraft no longer waits, the refusal tells what came first. */
+  /** Asks again after a refusal, which tells what came first if the aircraft no longer waits. */
   async #proposeAfter(refused: ProblemError, aircraft: string): Promise<Proposal> {
     try {
       return await this.service.propose(this.day, aircraft, this.policy)

@@ -79,8 +79,8 @@ class Commands {
   }
 
   /**
-   * Runs the command of a key, if there is one. Escape closes the form or list that was opened last.
-   * A key that is held down runs its command once.
+   * Runs the command of a key, if there is one. Escape closes the form or list that was opened
+   * last. A key that is held down runs its command once.
    */
   press(event: KeyboardEvent): void {
     const key = keyOf(event)

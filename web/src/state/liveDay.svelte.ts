@@ -1,5 +1,5 @@
 // A live day in the console: read once, then kept up to date by its event stream. The service knows
-// the rules, so after events its state, its trace and its outlook are read again, at a limited rate.
+// the rules, so after events its state, trace and outlook are read again, at a limited rate.
 
 import type { Service } from '../api/client'
 import { ProblemError, UNAUTHORIZED } from '../api/problem'
