@@ -1,6 +1,8 @@
 //! Requests at the limits of the API's description: the service accepts and refuses them as the
 //! description states.
 
+use std::collections::BTreeSet;
+
 use serde_json::{Value, json};
 
 use crate::api::service;
@@ -166,4 +168,14 @@ fn uploaded_policies_have_plain_names() {
     for name in ["ours-2026", "_", "7.1", &"a".repeat(40)] {
         assert!(!put(name), "{name} is a name, and these are no weights");
     }
+}
+
+#[test]
+fn each_kind_of_event_has_its_own_title() {
+    let description = description();
+    let kinds = description["components"]["schemas"]["Event"]["oneOf"].as_array().expect("kinds");
+    let titles: BTreeSet<&str> =
+        kinds.iter().map(|kind| kind["title"].as_str().expect("a title")).collect();
+    assert_eq!(titles.len(), kinds.len(), "{titles:?}");
+    assert!(titles.contains("DecidedEvent") && titles.contains("CorrectedEvent"), "{titles:?}");
 }
