@@ -1,5 +1,5 @@
-//! Plays days with any charge curve that a file may contain. Playing must end, and the checker, which
-//! shares no code with the simulator, must find that the schedule keeps every rule.
+//! Plays days with any charge curve that a file may contain. Playing must end, and the checker,
+//! which shares no code with the simulator, must find that the schedule keeps every rule.
 
 #![no_main]
 

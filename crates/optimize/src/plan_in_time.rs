@@ -1,8 +1,8 @@
 //! A plan that is there in time, whatever the day.
 //!
 //! The search and the proof look at the clock and at the stop request many times a second, but a
-//! policy or a step may take long on a day of an unusual kind. So they run on a thread of their
-//! own, and the caller does not wait for that thread longer than a grace time. The best plan until
+//! policy or a step may take long on a day of an unusual kind. So they run on a separate thread,
+//! and the caller does not wait for that thread longer than a grace time. The best plan until
 //! then is never lost.
 
 use std::panic::resume_unwind;

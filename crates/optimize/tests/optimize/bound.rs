@@ -414,8 +414,8 @@ fn a_day_too_large_is_refused_with_what_helps() {
     assert!(error.hint().is_some());
 }
 
-/// On `paper` the shortest flight takes half an hour and some minutes, and operations last from 6:00
-/// to 18:00.
+/// On `paper` the shortest flight takes half an hour and some minutes, and operations last from
+/// 6:00 to 18:00.
 #[test]
 fn an_outage_that_cannot_happen_does_not_loosen_the_bound() {
     for day in [paper_day(3), Arc::new(shipped_day("paper-quick", 3))] {

@@ -195,8 +195,8 @@ proptest! {
         prop_assert!(report.is_valid(), "{report}");
     }
 
-    /// Curves with neighbouring numbers for charges, batteries of a milliwatt-hour and of 5,000 kWh,
-    /// the least and the greatest powers.
+    /// Curves with neighbouring numbers for charges, batteries of a milliwatt-hour and of
+    /// 5,000 kWh, the least and the greatest powers.
     #[test]
     fn simulator_and_checker_agree_on_extreme_curves(day in extreme_energy_day(), draws in draws()) {
         let (_, trace) = play(&day, &draws);
