@@ -151,8 +151,8 @@ impl NetworkOverview {
     }
 }
 
-/// The longest flight of a type, miles: what it takes on the way and loses by self-discharge is what
-/// a full battery holds above the reserve.
+/// The longest flight of a type, miles. It takes, with self-discharge, what a full battery holds
+/// above the reserve.
 fn range_mi(kind: &AircraftType, operations: &Operations) -> f64 {
     let lost_kw = kind.battery_kwh * kind.self_discharge_per_h;
     let windows_h = f64::from(operations.takeoff_s + operations.landing_s) / 3_600.0;

@@ -49,14 +49,14 @@ impl<S: Solver> Search<'_, S> {
         found
     }
 
-    /// What one more thing costs by dimension, as far as the value counts it.
+    /// Cost of one more thing by dimension; 0 if the value does not count costs.
     fn prices(&self) -> Vec<f64> {
         let counts = self.aim.goal == crate::size::Goal::MostProfit;
         self.aim.costs.iter().map(|cost| if counts { *cost } else { 0.0 }).collect()
     }
 
     /// Lets the steps from the best design race, and with them several steps together; simulates at
-    /// most so many days.
+    /// most this many days.
     pub(super) fn race_around(&mut self, reach: u32, most_days: usize) -> Result<(), Error> {
         let best = self.best().clone();
         let ends_at = self.simulated_days.saturating_add(most_days);
@@ -118,7 +118,7 @@ impl<S: Solver> Search<'_, S> {
 
     /// Plays designs on the first day, and the better half of them on twice as many, until some
     /// have met all days. A design that is not better than the best on the days so far is out.
-    /// Simulates at most so many days.
+    /// Simulates at most this many days.
     fn race(&mut self, mut entrants: Vec<Design>, most_days: usize) -> Result<(), Error> {
         let (all, ends_at) = (self.solver.days(), self.simulated_days.saturating_add(most_days));
         let mut days = 1;
