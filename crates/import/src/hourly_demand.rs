@@ -48,7 +48,7 @@ impl HourlyDemand {
         let mut cells = Cells::default();
         match Layout::of(&table::csv_names(file)?, vertiports) {
             Layout::Long => {
-                table::rows(file, &COLUMNS, warnings, |row| cells.add(row, vertiports))?
+                table::rows(file, &COLUMNS, warnings, |row| cells.add(row, vertiports))?;
             }
             Layout::Periods(wide) => {
                 cells.starts.extend(wide.iter().filter_map(|one| clock::begin(one.cell())));
@@ -127,18 +127,18 @@ impl Layout {
         let has =
             |at: usize| names.iter().any(|name| name.eq_ignore_ascii_case(COLUMNS[at].names[0]));
         let columns = |is_one: &dyn Fn(&str) -> bool| -> Vec<WideColumn> {
-            let named = names.iter().enumerate().filter(|(_, name)| is_one(name));
-            named.map(|(at, name)| WideColumn { at, name: name.clone() }).collect()
+            let chosen = names.iter().enumerate().filter(|(_, name)| is_one(name));
+            chosen.map(|(at, name)| WideColumn { at, name: name.clone() }).collect()
         };
         if has(PASSENGERS) || !has(FROM) {
             return Self::Long;
         }
         let is_time = |name: &str| clock::begin(Cell::text(name.as_bytes())).is_some();
-        let is_vertiport =
+        let is_destination =
             |name: &str| vertiports.find(name, Cell::text(name.as_bytes()).whole()).is_some();
         let wide = match (has(PERIOD), has(TO)) {
             (false, true) => Self::Periods(columns(&is_time)),
-            (true, false) => Self::Destinations(columns(&is_vertiport)),
+            (true, false) => Self::Destinations(columns(&is_destination)),
             _ => Self::Long,
         };
         match &wide {
