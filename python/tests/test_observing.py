@@ -93,7 +93,6 @@ def test_a_view_shows_the_forecast_and_the_fares_of_every_period_and_no_demand_b
     while not over:
         view = env.view
         now = view.period
-        assert view.forecast.shape == forecast.shape
         assert not view.forecast[:now].any()
         assert np.array_equal(view.forecast[now], view.demand_left)
         assert np.array_equal(view.forecast[now + 1 :], forecast[now + 1 :])
