@@ -272,18 +272,19 @@ fn features_of_charge_come_after_the_others() {
                 }
             }
             let kind = view.aircraft_type(view.kind(decision.aircraft));
-            let full_kwh = kind.battery_kwh as f32;
+            let full_kwh = kind.battery_kwh;
             for to in 0..view.vertiports() {
                 let node = &get(Part::FullChargeNodes)[40 * to..][37..40];
-                let after = 100.0 * get(Part::ChoiceCharge)[to] / full_kwh;
-                assert!((node[2] - after).abs() < 1e-5, "{node:?}, {after}");
+                let after = 100.0 * f64::from(get(Part::ChoiceCharge)[to]) / full_kwh;
+                assert!((f64::from(node[2]) - after).abs() < 1e-5, "{node:?}, {after}");
                 assert_eq!(node[0], get(Part::ChoiceWait)[to].min(2.0));
                 waits += u32::from(node[0] > 0.0);
                 assert!((0.0..=1.0).contains(&node[1]), "{node:?}");
             }
             let aircraft = &get(Part::PricedChargeAircraft)[10..];
-            let charge = 100.0 * get(Part::FleetCharge)[decision.aircraft.at()] / full_kwh;
-            assert!((aircraft[0] - charge).abs() < 1e-5, "{aircraft:?}, {charge}");
+            let charge_kwh = 100.0 * f64::from(get(Part::FleetCharge)[decision.aircraft.at()]);
+            let charge = charge_kwh / full_kwh;
+            assert!((f64::from(aircraft[0]) - charge).abs() < 1e-5, "{aircraft:?}, {charge}");
             assert_eq!(aircraft[2] == 1.0, view.charges_as_needed());
             assert!(view.charges_as_needed() || aircraft == [1.0, 0.0, 0.0]);
         });
