@@ -148,7 +148,10 @@ fn statements(folder: &Path, explained: &Value) -> Vec<String> {
     });
     let (most, _) = stands.max_by(|one, other| one.1.total_cmp(&other.1)).expect("stands");
     let size = summary(folder, "best");
-    let design = |at: &str| &size["designs"][number(&size[at]) as usize]["size"];
+    let design = |name: &str| {
+        let at = size[name].as_u64().and_then(|at| usize::try_from(at).ok());
+        &size["designs"][at.expect("the number of a design")]["size"]
+    };
     let (best, now) = (design("best"), design("now"));
     let share = |of: &str| format!("{:.0} %", 100.0 * number(&size[of]["served_share"]));
     let fares = profits(&summary(folder, "fare")).into_iter();

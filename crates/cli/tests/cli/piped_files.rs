@@ -16,7 +16,7 @@ fn bash(folder: &Path, line: &str) -> Output {
     let mut child = shell.stdout(std::process::Stdio::piped()).spawn().expect("bash runs");
     let begun = Instant::now();
     while child.try_wait().expect("a child").is_none() {
-        if begun.elapsed() > Duration::from_secs(120) {
+        if begun.elapsed() > Duration::from_mins(2) {
             child.kill().expect("it is running");
             panic!("{line} waits for ever");
         }

@@ -10,7 +10,7 @@ use serde_json::value::RawValue;
 use utoipa::{IntoParams, ToSchema};
 
 use super::answer::{Times, at_event, json};
-use super::extract::{EventNumber, Named, PageSize, Validated, parse, without_mark};
+use super::extract::{EventNumber, Named, PageSize, Validated, parse, parse_any, without_mark};
 use super::write::Idempotent;
 use crate::access::Actor;
 use crate::days::last_seq;
@@ -49,7 +49,7 @@ impl OneOrMore {
     }
 
     fn several(body: &[u8]) -> Result<Vec<Event>, Error> {
-        let raw: Vec<Box<RawValue>> = parse(body)?;
+        let raw: Vec<Box<RawValue>> = parse_any(body)?;
         let of = raw.len();
         if of > MOST_EVENTS {
             return Err(too_many());

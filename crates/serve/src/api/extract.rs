@@ -194,12 +194,23 @@ pub(super) fn without_mark(body: &[u8]) -> &[u8] {
     body.strip_prefix(b"\xef\xbb\xbf").unwrap_or(body)
 }
 
-/// Parses the JSON of a request. An empty body is the empty object.
+/// Parses the JSON object of a request. An empty body is the empty object.
+///
+/// # Errors
+/// [`Error::BadRequest`] also for a list, which `serde` would read as members without their names.
 pub(super) fn parse<T: DeserializeOwned>(body: &[u8]) -> Result<T, Error> {
     let body = match without_mark(body) {
         [] => b"{}".as_slice(),
         body => body,
     };
+    if body.trim_ascii_start().starts_with(b"[") {
+        return Err(Error::BadRequest { rule: "expected an object, found a list".to_owned() });
+    }
+    parse_any(body)
+}
+
+/// Parses the JSON of a request, which may be a list.
+pub(super) fn parse_any<T: DeserializeOwned>(body: &[u8]) -> Result<T, Error> {
     serde_json::from_slice(body).map_err(|error| {
         if let Some(name) = no_number(body, &error) {
             let rule = format!(

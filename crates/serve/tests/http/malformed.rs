@@ -133,6 +133,19 @@ fn numbers_that_json_does_not_have_are_named() {
 }
 
 #[test]
+fn a_list_is_no_object_whatever_its_entries_are() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    for path in [format!("{day}/what-if"), format!("{day}/decisions"), "/v1/days".to_owned()] {
+        for body in ["[]", " [null, null]", "[\"A01\", \"V2\"]"] {
+            let refused = service.send("POST", &path, &[], body.as_bytes());
+            assert_eq!(refused.problem(), (400, "V601"), "{path} {body}");
+        }
+    }
+    assert_eq!(service.get(&format!("{day}/events")).json["events"], json!([]));
+}
+
+#[test]
 fn null_is_the_same_as_an_optional_member_that_is_left_out() {
     let (_folder, service) = service();
     let new_day = json!({
