@@ -509,9 +509,9 @@ class Evaluation:
     ) -> list[Path]:
         """Writes a result file for each suite and policy into a folder, and returns their paths. `about`
         is what you say about the policy, as ``{"training": "none"}``; the protocol lists what is
-        expected. `runs` names the training run that a policy is, for `board`, as
-        ``{"mine-2": ("mine", 2)}``: its method and its seed, which may be None where weights of Vertifleet
-        state it. An existing file that is read-only or not a result is replaced only with `force`.
+        expected. `runs` names the training run that a policy is, for `board`, as ``{"mine-2": ("mine",
+        2)}``: its method and its seed, which may be None where weights of Vertifleet state it. An
+        existing file that is read-only or not a result is replaced only with `force`.
         """
 
 def evaluate(
@@ -536,7 +536,8 @@ class Board:
     def report(self, folder: _Path, *, force: bool = False) -> Path:
         """Writes a page with tables and figures, and the same page in Markdown, into a folder, and returns
         the path of the page. An earlier report in the folder is replaced, but a read-only one only with
-        `force`. A folder that holds anything else is refused, or, with `force`, kept under another name.
+        `force`. A folder that holds anything else is refused, or, with `force`, kept under another
+        name.
         """
 
 def board(paths: Sequence[_Path], command: str) -> Board:
