@@ -26,10 +26,10 @@ class Careless:
 
     seed: int
 
-    def reset(self, view: View) -> None:
+    def reset(self, view: View) -> None:  # noqa: ARG002
         self.generator = np.random.default_rng(self.seed)
 
-    def choose(self, decision: Decision, view: View) -> int:
+    def choose(self, decision: Decision, view: View) -> int:  # noqa: ARG002
         feasible = np.flatnonzero(view.action_mask)
         careless = self.generator.random() < 0.1 * self.seed
         return int(self.generator.choice(feasible) if careless else feasible[-1])
@@ -167,7 +167,8 @@ def test_seeds_of_weights_are_those_of_their_runs(tmp_path: Path) -> None:
 
 def test_a_board_prints_and_reports(results: Path, tmp_path: Path) -> None:
     board = vertifleet.board(results)
-    assert "careless" in str(board) and "<table>" in board._repr_html_()
+    assert "careless" in str(board)
+    assert "<table>" in board._repr_html_()
     page = board.report(tmp_path / "report")
     assert page.name == "report.html"
     names = {path.name for path in page.parent.iterdir()}

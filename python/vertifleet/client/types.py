@@ -9,7 +9,6 @@ from typing import Literal, TypeAlias
 
 from typing_extensions import NotRequired, TypedDict
 
-
 Moment: TypeAlias = str | int
 """A time of the day, as HH:MM:SS or as seconds since midnight, before 100:00:00; or in ISO 8601 with an
 offset, if the day has a date.
