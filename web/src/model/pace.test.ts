@@ -122,7 +122,7 @@ describe('a jump of the clock', () => {
     expect(pace.speed).toBeCloseTo(1, 5)
   })
 
-  it('is told from a fast day by its speed so far', () => {
+  it('differs from a fast day in its speed so far', () => {
     const pace = new Pace()
     for (let at = 0; at < 30; at++) pace.observe(21_600 + 60 * at, 100 * at)
     pace.observe(24_300, 4_500)
