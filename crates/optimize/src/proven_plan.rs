@@ -25,7 +25,7 @@ pub struct ProvenPlan {
     pub bound: Option<Bound>,
 }
 
-/// Plans a day like [`plan()`] while a bound is proven in the background. It ends early if the plan
+/// Plans a day like [`plan`](crate::plan()) while a bound is proven in the background. It ends early if the plan
 /// reaches the bound, or comes as close to it as `gap`, a share of the bound. A limit of time holds
 /// for both; after a limit of steps, the whole proof is waited for.
 ///

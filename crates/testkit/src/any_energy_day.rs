@@ -29,12 +29,12 @@ pub fn any_energy_day(number: u64, most: Size) -> Arc<Scenario> {
     with_energy(&day, number)
 }
 
-/// Days of [`energy_day`] with the batteries, powers and curves of [`with_extreme_energy`].
+/// Days of [`energy_day`] whose batteries, powers and curves are extreme but admitted.
 pub fn extreme_energy_day() -> impl Strategy<Value = Arc<Scenario>> {
     (energy_day(), any::<u64>()).prop_map(|(day, seed)| with_extreme_energy(&day, seed))
 }
 
-/// A day of [`any_energy_day`] with the batteries, powers and curves of [`with_extreme_energy`].
+/// A day of [`any_energy_day`] whose batteries, powers and curves are extreme but admitted.
 pub fn any_extreme_energy_day(number: u64, most: Size) -> Arc<Scenario> {
     with_extreme_energy(&any_energy_day(number, most), number)
 }
