@@ -25,7 +25,8 @@ pub(super) fn normal(random: &mut ChaCha8Rng) -> f64 {
     reason = "not negative, and bounded"
 )]
 pub(super) fn poisson(mean: f64, random: &mut ChaCha8Rng) -> u32 {
-    let drawn = if mean < MANY { counted(mean, random) } else { by_rejection(mean, random) };
+    // A mean that is not a number draws 0: the rejection would never end.
+    let drawn = if mean >= MANY { by_rejection(mean, random) } else { counted(mean, random) };
     drawn.min(MOST_PASSENGERS) as u32
 }
 
@@ -115,6 +116,11 @@ mod tests {
     /// Four standard errors of a mean over `DRAWS` draws.
     fn allowed(variance: f64) -> f64 {
         4.0 * (variance / f64::from(DRAWS)).sqrt()
+    }
+
+    #[test]
+    fn a_mean_that_is_not_a_number_draws_nothing() {
+        assert_eq!(poisson(f64::NAN, &mut ChaCha8Rng::seed_from_u64(1)), 0);
     }
 
     #[test]
