@@ -7,7 +7,7 @@ use std::time::Duration;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use vertifleet_core::{self as core, VertiportIx};
-use vertifleet_optimize::{self as exact, Budget, SearchSettings, Step, plan_with_proof};
+use vertifleet_optimize::{self as exact, Budget, SearchSettings, Step, plan_in_time};
 use vertifleet_progress::SearchBar;
 use vertifleet_study::starting_policies;
 
@@ -319,7 +319,8 @@ pub(crate) fn plan(
     let asked = gap.map(|gap| within("gap", gap, 1.0)).transpose()?;
     let threads = interruptible::threads(threads)?;
     let day = Arc::clone(&scenario.scenario);
-    let outcome = interruptible(py, threads, move |stop| {
+    // The search starts its own threads.
+    let outcome = interruptible(py, 1, move |stop| {
         let settings = SearchSettings { budget, searches: threads, seed };
         let limit = match budget {
             Budget::Time(limit) => Some(limit),
@@ -328,10 +329,10 @@ pub(crate) fn plan(
         let mut bar = SearchBar::new(units, limit);
         let starts = starting_policies(&day);
         let exact::ProvenPlan { plan, bound } =
-            plan_with_proof(&day, &settings, starts, asked, stop, &mut |now, bound| {
+            plan_in_time(&day, &settings, starts, asked, stop, &mut |now, bound| {
                 bar.show(now, bound);
-            });
-        Plan {
+            })?;
+        Ok(Plan {
             trace: Trace { scenario: Arc::clone(&day), trace: Arc::new(plan.trace) },
             profit_usd: plan.profit_usd,
             best_policy: plan.best_policy,
@@ -339,9 +340,9 @@ pub(crate) fn plan(
             steps: plan.steps,
             // A day that is too large for a bound still gets a plan.
             bound: bound.map(|bound| Bound::of(&day, &bound)),
-        }
+        })
     })?;
-    Ok(outcome)
+    outcome.map_err(|error: exact::Error| Failure::from(error).into())
 }
 
 /// Checks that an argument is from 0 to `most`.

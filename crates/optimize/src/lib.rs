@@ -1,8 +1,8 @@
 //! Upper bounds on the profit of a day, and schedules that come close to them.
 //!
 //! [`upper_bound`] proves how much no schedule of a known day can exceed. The planner, [`plan()`],
-//! searches for the schedule that earns the most, and [`plan_with_proof`] shows how far it can be
-//! from the best. [`Rolling`] decides while the day goes on.
+//! searches for the schedule that earns the most, and [`plan_in_time`] also shows how far
+//! it can be from the best. [`Rolling`] decides while the day goes on.
 //!
 //! This crate builds on `vertifleet-policy`; the planner starts from days played by its policies.
 //!
@@ -51,5 +51,5 @@ pub use plan::{
 };
 pub use plan_in_time::plan_in_time;
 pub use proof::Proof;
-pub use proven_plan::{ProvenPlan, plan_with_proof};
+pub use proven_plan::ProvenPlan;
 pub use rolling::Rolling;

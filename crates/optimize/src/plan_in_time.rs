@@ -10,6 +10,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, sleep};
 use std::time::{Duration, Instant};
 
+use rayon::ThreadPoolBuilder;
 use vertifleet_core::{Scenario, Stop};
 
 use crate::plan::{BestPlan, Budget, SearchProgress, SearchSettings, StartingPolicy};
@@ -40,9 +41,15 @@ impl Latest {
     }
 }
 
-/// Plans a day like [`plan_with_proof`](crate::plan_with_proof), and always returns soon after the
-/// limit of time and soon after `stop` is requested, with the best plan until then. In that case
-/// the search continues on its thread until it notices the request.
+/// Plans a day like [`plan`](crate::plan()) while a bound is proven in the background. It ends
+/// early if the plan reaches the bound, or comes as close to it as `gap`, a share of the bound. A
+/// limit of time holds for both; after a limit of steps, the whole proof is waited for.
+///
+/// It always returns soon after the limit of time and soon after `stop` is requested, with the best
+/// plan and bound until then. A search that is not over by then continues on its threads until it
+/// notices the request.
+///
+/// `watch` is called many times a second with the progress of the plan and the best bound so far.
 ///
 /// # Errors
 /// [`Error::NoPlanInTime`] if no policy has played the day by then.
@@ -58,14 +65,22 @@ pub fn plan_in_time(
     watch: &mut dyn FnMut(&SearchProgress, Option<&Bound>),
 ) -> Result<ProvenPlan, Error> {
     let (scenario, settings, heard) = (Arc::clone(scenario), *settings, stop.clone());
+    // The threads end with the search: a process that is forked later would not have them.
+    let pool = ThreadPoolBuilder::new().num_threads(settings.searches).stack_size(STACK).build();
     in_time(settings.budget, stop, watch, move |latest| {
-        prove_and_plan(
-            &scenario,
-            &settings,
-            starts,
-            (gap, &heard, &latest.plan),
-            &mut |progress, bound| *latest.seen() = Some((*progress, bound.cloned())),
-        )
+        let plan = || {
+            prove_and_plan(
+                &scenario,
+                &settings,
+                starts,
+                (gap, &heard, &latest.plan),
+                &mut |progress, bound| *latest.seen() = Some((*progress, bound.cloned())),
+            )
+        };
+        match pool {
+            Ok(pool) => pool.install(plan),
+            Err(_) => plan(),
+        }
     })
 }
 

@@ -25,27 +25,10 @@ pub struct ProvenPlan {
     pub bound: Option<Bound>,
 }
 
-/// Plans a day like [`plan`](crate::plan()) while a bound is proven in the background. It ends early if the plan
-/// reaches the bound, or comes as close to it as `gap`, a share of the bound. A limit of time holds
-/// for both; after a limit of steps, the whole proof is waited for.
-///
-/// `watch` is called many times a second with the progress of the plan and the best bound so far.
-/// Soon after `stop` is requested, the best plan and bound by then are returned.
-pub fn plan_with_proof(
-    scenario: &Arc<Scenario>,
-    settings: &SearchSettings,
-    starts: Vec<StartingPolicy>,
-    gap: Option<f64>,
-    stop: &Stop,
-    watch: &mut dyn FnMut(&SearchProgress, Option<&Bound>),
-) -> ProvenPlan {
-    let best = BestPlan::default();
-    prove_and_plan(scenario, settings, starts, (gap, stop, &best), &mut |progress, bound| {
-        watch(progress, bound.map(|bound| &**bound));
-    })
-}
-
-/// Does the same as [`plan_with_proof`], and offers every better plan to `best` at once.
+/// Plans a day while a bound is proven in the background, and offers every better plan to `best`
+/// at once. It ends early if the plan reaches the bound, or comes as close to it as `gap`, a share
+/// of the bound. A limit of time holds for both; after a limit of steps, the whole proof is waited
+/// for.
 pub(crate) fn prove_and_plan(
     scenario: &Arc<Scenario>,
     settings: &SearchSettings,
