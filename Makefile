@@ -1,6 +1,6 @@
 # The project's two commands are `make demo` and `make test`; the rest is for its developers.
 
-.PHONY: demo program check test test-all rust-test python-checked-test python-test console-test lint soak database console console-ready deny bench train suites board notebooks python python-light wheel sdist prepare tools
+.PHONY: demo program check checked test test-all rust-test python-light-test python-test console-test lint soak database console console-ready deny bench train suites board notebooks python python-light wheel sdist prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network. The dispatch service, half of a build, is left out.
 demo: prepare
@@ -13,6 +13,8 @@ program: prepare
 
 # The settings of tests, which .cargo/checked.toml explains.
 CHECKED = --config .cargo/checked.toml --release --workspace --locked
+# The Python tools of lints and tests, beside the package with the extension module that the tests compile.
+DEV = $(CURDIR)/target/checked/python-dev/bin
 
 # Run this before a commit; it takes minutes: formatting, clippy, and the unit tests.
 check: prepare
@@ -22,20 +24,22 @@ check: prepare
 
 # Every test that needs neither a browser nor PyTorch nor Ray, documentation among them.
 test:
-	@scripts/groups rust-test python-checked-test
+	@scripts/groups rust-test python-light-test
 
 # Every test. Each group runs, also after another has failed, and the last lines name those that failed.
 test-all:
-	@scripts/groups rust-test console-test python-checked-test python-test
+	@scripts/groups rust-test console-test python-light-test python-test
 
 # The lints, which CI runs besides the tests.
-lint: prepare python tools console-ready
+lint: prepare tools console-ready
 	cargo fmt --all --check
 	cargo clippy $(CHECKED) --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc $(CHECKED) --no-deps
-	cd python && .venv/bin/ruff format --check . && .venv/bin/ruff check . && .venv/bin/mypy
-	cd docs && ../python/.venv/bin/stubtest vertifleet._native
-	python/.venv/bin/typos
+	cargo build $(CHECKED) --example checked_native
+	@scripts/python checked
+	cd python && $(DEV)/ruff format --check . && $(DEV)/ruff check . && $(DEV)/mypy
+	cd docs && $(DEV)/stubtest vertifleet._native
+	$(DEV)/typos
 	scripts/prose
 	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
 	target/tools/bin/mdbook build docs
@@ -46,21 +50,24 @@ rust-test: prepare database
 	cargo test $(CHECKED) --no-fail-fast
 
 # Two tests at a time, from the root: in python/, Ray's workers would import the sources, which have no extension module.
-PYTEST = bin/pytest -c python/pyproject.toml --numprocesses 2 --dist worksteal
+PYTEST = pytest -c python/pyproject.toml --numprocesses 2 --dist worksteal
 
-python-checked-test: prepare
-	cargo test $(CHECKED) --no-run
+# The tests of the package without PyTorch and Ray, and those that need them.
+python-light-test: checked
+	@scripts/python checked-light
+	target/checked/python-light/bin/$(PYTEST) -q --ignore python/tests/frameworks python/tests
+python-test: checked
 	@scripts/python checked
-	target/checked/python/$(PYTEST) -q --ignore python/tests/frameworks python/tests
-# The tests that need PyTorch or Ray, and a test of the wheel that users install.
-python-test: python
-	python/.venv/$(PYTEST) python/tests/frameworks python/tests/test_library.py python/benches
+	$(DEV)/$(PYTEST) python/tests/frameworks python/benches
+
+# What all tests share: their program, and the extension module of the Python package.
+checked: prepare
+	cargo test $(CHECKED) --no-run
 
 # The console in headless browsers, with the tests' build of the program; and a check that web/dist
 # matches web/.
-console-test: prepare
+console-test: checked
 	@scripts/console test
-	cargo test $(CHECKED) --no-run
 	cd web && npm test && npm run dist-test && npm run e2e
 
 # The Python package with all its extras, in python/.venv; and without PyTorch and Ray, which take 7 GB.
