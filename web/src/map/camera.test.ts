@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest'
-import { fit, pan, pixelX, pixelY, shows, view, zoom } from './camera'
+import { fit, keepNear, pan, pixelX, pixelY, shows, view, zoom } from './camera'
 
 const size = { width: 800, height: 600 }
 const box = { west: -10, south: 0, east: 30, north: 20 }
@@ -34,6 +34,14 @@ describe('a camera', () => {
     const moved = pan(camera, 50, -20)
     expect(pixelX(moved, size, 10)).toBeCloseTo(450)
     expect(pixelY(moved, size, 10)).toBeCloseTo(280)
+  })
+
+  it('keeps a moving point in the middle at its scale, in steps of the pixels that it may be off', () => {
+    const moved = keepNear(camera, size, { x: 12, y: 3 }, 1)
+    expect(moved).toEqual({ x: 12, y: 3, scale: camera.scale })
+    const near = { x: 12 + 0.9 / camera.scale, y: 3 }
+    expect(keepNear(moved, size, near, 1)).toBe(moved)
+    expect(keepNear(moved, size, { x: 12 + 1.1 / camera.scale, y: 3 }, 1).x).toBeGreaterThan(12)
   })
 
   it('shows a network of one vertiport at a scale that makes sense', () => {

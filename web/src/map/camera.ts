@@ -15,6 +15,9 @@ export interface Camera {
   readonly scale: number
 }
 
+/** A point of the plane, miles. */
+export type Point = Pick<Camera, 'x' | 'y'>
+
 /** The part of the plane that a map shows, and the colours of the theme. */
 export interface MapView {
   camera: Camera
@@ -69,6 +72,16 @@ export function zoom(
     y: camera.y - down / camera.scale + down / scale,
     scale,
   }
+}
+
+/**
+ * Moves the picture so that a point is in its middle. Within some pixels of the middle the picture
+ * stays, because each move redraws the ground.
+ */
+export function keepNear(camera: Camera, size: Size, { x, y }: Point, most_px: number): Camera {
+  const right = pixelX(camera, size, x) - size.width / 2
+  const down = pixelY(camera, size, y) - size.height / 2
+  return Math.hypot(right, down) <= most_px ? camera : { ...camera, x, y }
 }
 
 export function pixelX(camera: Camera, size: Size, x: number): number {

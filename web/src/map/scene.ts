@@ -70,6 +70,11 @@ export class Scene {
     return Math.min(1, passengers / at(this.record.aircraft, aircraft).seats)
   }
 
+  /** The place of an aircraft in the plane. */
+  placeOf(aircraft: number): { x: number; y: number } {
+    return { x: at(this.aircraft, 2 * aircraft), y: at(this.aircraft, 2 * aircraft + 1) }
+  }
+
   /** Whether the departure or the landing of an aircraft is overdue. */
   isOverdue(aircraft: number): boolean {
     return at(this.frame.overdue_min, aircraft) > 0

@@ -2,7 +2,6 @@
 // open form or list covers the view: until it is closed, only commands of the whole console are
 // possible, so no key acts on what is covered.
 
-import { untrack } from 'svelte'
 import { isCharacter, keyOf, Sequence } from '../model/keys'
 import { preferences } from './preferences.svelte'
 
@@ -36,6 +35,10 @@ class Commands {
   #lists = $state.raw<readonly Command[][]>([])
   /** The open forms and lists, the latest last. */
   #covers = $state.raw<readonly Cover[]>([])
+  // The same without reactivity, for changes. The end of an effect reads states as they were before
+  // the changes of the same moment, so it would lose what another effect has just added.
+  #latestLists = this.#lists
+  #latestCovers = this.#covers
   readonly #sequence = new Sequence()
 
   /** All commands, those of the view before those of the shell. */
@@ -47,19 +50,18 @@ class Commands {
 
   /** Adds commands until the returned function is called: `$effect(() => commands.add([...]))`. */
   add(list: Command[]): () => void {
-    // An effect that adds commands must not run again when others are added.
-    this.#lists = [...untrack(() => this.#lists), list]
+    this.#lists = this.#latestLists = [...this.#latestLists, list]
     return () => {
-      this.#lists = untrack(() => this.#lists).filter((one) => one !== list)
+      this.#lists = this.#latestLists = this.#latestLists.filter((one) => one !== list)
     }
   }
 
   /** Covers the view with an open form or list, until the returned function is called. */
   cover(close: () => void): () => void {
     const cover = { close }
-    this.#covers = [...untrack(() => this.#covers), cover]
+    this.#covers = this.#latestCovers = [...this.#latestCovers, cover]
     return () => {
-      this.#covers = untrack(() => this.#covers).filter((one) => one !== cover)
+      this.#covers = this.#latestCovers = this.#latestCovers.filter((one) => one !== cover)
     }
   }
 

@@ -242,10 +242,16 @@ export class LiveDay {
     )
   }
 
-  /** An aircraft as a selection target. */
-  targetOf(aircraft: string): Target | undefined {
+  /** The number of an aircraft of the day. */
+  indexOf(aircraft: string | undefined): number | undefined {
     const index = this.#scenario?.aircraft.findIndex((one) => one.id === aircraft) ?? -1
-    return index < 0 ? undefined : { kind: 'aircraft', aircraft: index }
+    return index < 0 ? undefined : index
+  }
+
+  /** An aircraft as a selection target. */
+  targetOf(aircraft: string | undefined): Target | undefined {
+    const index = this.indexOf(aircraft)
+    return index === undefined ? undefined : { kind: 'aircraft', aircraft: index }
   }
 
   /** Whether aircraft decide whatever their charge. */

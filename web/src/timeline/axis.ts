@@ -25,6 +25,9 @@ export interface AxisPicture {
 /** The opacity of the veil over the future. */
 const VEIL = { overKnown: 0.5, overExpected: 0.15 }
 
+/** The width of the bar at the name of the followed aircraft. */
+const FOLLOWED_PX = 4
+
 /** Half the width of the flag with the time. */
 const FLAG_PX = 28
 
@@ -72,6 +75,8 @@ export function paintNow(
 
 export interface NamesPicture {
   rows: readonly GanttRow[]
+  /** The aircraft whose name is marked. */
+  followed: number | undefined
   rowHeight: number
   scrollTop: number
   size: Size
@@ -80,7 +85,7 @@ export interface NamesPicture {
 
 /** The names of rows. The name of a group is at its first visible row. */
 export function paintNames(context: CanvasRenderingContext2D, picture: NamesPicture): void {
-  const { rows, rowHeight, scrollTop, size, colours } = picture
+  const { rows, followed, rowHeight, scrollTop, size, colours } = picture
   const family = getComputedStyle(context.canvas).fontFamily
   context.fillStyle = css(colours.surface)
   context.fillRect(0, 0, GUTTER_PX, size.height)
@@ -98,6 +103,10 @@ export function paintNames(context: CanvasRenderingContext2D, picture: NamesPict
     context.font = `${hasGroups ? 400 : 500} ${hasGroups ? px * 0.85 : px}px ${family}`
     context.textAlign = hasGroups ? 'right' : 'left'
     context.fillText(row.label, hasGroups ? GUTTER_PX - 6 : 8, top + rowHeight / 2 + 0.5)
+    if (row.target.kind === 'aircraft' && row.target.aircraft === followed) {
+      context.fillStyle = css(colours.accent)
+      context.fillRect(0, top + 1, FOLLOWED_PX, rowHeight - 2)
+    }
     if (row.group !== undefined) {
       context.fillStyle = css(colours.line)
       context.fillRect(0, Math.round(top), GUTTER_PX, 1)

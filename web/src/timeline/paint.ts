@@ -26,6 +26,8 @@ export interface GanttPicture {
   colours: Record<ColourName, Rgb>
   hovered: Target | undefined
   selected: Target | undefined
+  /** The aircraft whose row is kept in view. */
+  followed: number | undefined
   /** Legs that another play lacks; they are marked. */
   differing: DifferingLegs | undefined
 }

@@ -24,6 +24,8 @@ import {
 import { Sheet } from '../../parts/sheet'
 import { drawSprites, FILLED, spriteName, toneOf, type Sprites } from './sprites'
 
+/** The distance between the ring of the selected aircraft and that of the followed one, pixels. */
+const FOLLOWED_PX = 4
 /** Aircraft further outside the picture than this are not drawn. */
 const BEYOND_PX = 20
 
@@ -122,7 +124,7 @@ function paintAircraft(
   px: number,
   sprites: Sprites,
 ): void {
-  const { scene, colours, hovered, selected } = picture
+  const { scene, colours, hovered, selected, followed } = picture
   const isMarked = aircraftMeant(hovered) === one || aircraftMeant(selected) === one
   const half = (aircraftSize(px, at(scene.frame.lifts, one)) * (isMarked ? 1.25 : 1)) / FILLED
   const sprite = sprites.mapping[spriteName(toneOf(scene, one, isMarked), scene.load(one))]
@@ -130,6 +132,7 @@ function paintAircraft(
   context.globalAlpha = isMarked ? 1 : visibility(picture, one, place)
   context.translate(place.x, place.y)
   if (isMarked) paintHalo(context, half * FILLED, css(colours.accent))
+  if (followed === one) paintHalo(context, half * FILLED + FOLLOWED_PX, css(colours.accent))
   const angle = direction(picture, one, place)
   context.rotate(angle)
   const { x, y, width, height } = sprite

@@ -10,6 +10,8 @@ export interface Picture extends MapView {
   scene: Scene
   hovered: Target | undefined
   selected: Target | undefined
+  /** The aircraft that the map keeps in its middle. */
+  followed: number | undefined
   showsDemand: boolean
 }
 
