@@ -2,13 +2,22 @@
 
 import type { TakenEvent } from '../api/types'
 
-/** The numbers of the events that were taken back. */
-export function correctedOf(events: readonly TakenEvent[]): Set<number> {
-  return new Set(events.flatMap(({ event }) => (event.type === 'corrected' ? [event.event] : [])))
+/** The corrections of a log, by the number of the event that each took back. */
+export type Corrections = ReadonlyMap<number, TakenEvent>
+
+export function correctionsOf(events: readonly TakenEvent[]): Corrections {
+  return new Map(
+    events.flatMap((taken) => (taken.event.type === 'corrected' ? [[taken.event.event, taken]] : [])),
+  )
+}
+
+/** The event that an event took back; undefined if it is no correction, or is not among them. */
+export function takenBackBy({ event }: TakenEvent, events: readonly TakenEvent[]): TakenEvent | undefined {
+  return event.type === 'corrected' ? events.find(({ seq }) => seq === event.event) : undefined
 }
 
 /** The events that hold, without those that were taken back. */
 export function withoutCorrected(events: readonly TakenEvent[]): TakenEvent[] {
-  const corrected = correctedOf(events)
-  return events.filter(({ seq }) => !corrected.has(seq))
+  const corrections = correctionsOf(events)
+  return events.filter(({ seq }) => !corrections.has(seq))
 }

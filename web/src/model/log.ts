@@ -19,6 +19,8 @@ export const eventTypes = [
   'cancelled',
   'stands',
   'clock',
+  'corrected',
+  'acknowledged',
 ] as const satisfies readonly Event['type'][]
 
 /** The filter; an empty text matches everything. */

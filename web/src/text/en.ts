@@ -371,7 +371,10 @@ export const en = {
     correctHint:
       'The day continues as if this event had not been reported. The log keeps it, and shows that it was taken back.',
     correctNow: 'Take back',
-    corrected: 'This event was taken back.',
+    correctedMark: 'taken back',
+    correctedAt: (time: string) => `at ${time}`,
+    corrected: (time: string) => `This event was taken back at ${time}.`,
+    showEvent: (seq: number) => `Show event ${seq}`,
     correctedNow: (seq: number) => `Event ${seq} was taken back.`,
     takenHint: 'When the service recorded the event, in this computer’s time zone',
     noActor: 'unknown: the service uses no tokens',
