@@ -91,6 +91,45 @@ describe('alerts', () => {
     expect(alerts({ closures }, SEVEN + 600)).toEqual([])
   })
 
+  it('name a vertiport once when separate reports have closed every route from and to it', () => {
+    const route = (from: number, to: number, since: number, until?: number) => ({
+      ...{ from, to, since: SEVEN - since },
+      ...(until === undefined ? {} : { until: SEVEN + until }),
+    })
+    const all = [route(1, 0, 900, 600), route(0, 1, 600), route(1, 2, 300, 1200), route(2, 1, 900, 900)]
+    const flight = leg({ from: 2, awaited: { report: 'landing', due: SEVEN + 60 } })
+    const away = leg({ aircraft: 1, from: 1, to: 0, awaited: { report: 'landing', due: SEVEN + 60 } })
+    const found = alerts({ closures: [...all, route(0, 2, 60)], legs: [flight, away] })
+    expect(found.map(({ severity, matter, since }) => ({ severity, matter, since }))).toEqual([
+      {
+        severity: 'critical',
+        matter: { kind: 'closed', what: 'V2', until: SEVEN + 600, underWay: ['A01'] },
+        since: SEVEN - 300,
+      },
+      {
+        severity: 'warning',
+        matter: { kind: 'closed', what: 'V1 → V3', until: undefined, underWay: [] },
+        since: SEVEN - 60,
+      },
+    ])
+    // As long as one route is open, each closed one is an alert.
+    expect(alerts({ closures: all.slice(1) })).toHaveLength(3)
+    expect(alerts({ closures: all }, SEVEN + 600)).toHaveLength(3)
+  })
+
+  it('count the routes of other closed vertiports, and do not repeat those of a closed one', () => {
+    const whole = { vertiport: 0, since: SEVEN - 600 }
+    const both = [
+      { from: 1, to: 2, since: SEVEN },
+      { from: 2, to: 1, since: SEVEN },
+    ]
+    const names = (closures: DayRecord['closures']) =>
+      alerts({ closures }).map(({ matter }) => 'what' in matter && matter.what)
+    expect(names([whole, { from: 0, to: 1, since: SEVEN - 60 }])).toEqual(['V1'])
+    expect(names([whole, { ...whole, vertiport: 1 }])).toEqual(['V1', 'V2'])
+    expect(names([whole, ...both])).toEqual(['V1', 'V2', 'V3'])
+  })
+
   it('name outages without an end, and flights that land with little charge', () => {
     const outages = [{ aircraft: 1, since: SEVEN - 60 }]
     expect(alerts({ outages })[0]).toMatchObject({ matter: { aircraft: 'A02', until: undefined } })

@@ -3,6 +3,7 @@
 
 import type { DayState, TakenEvent } from '../api/types'
 import { minutesOverdue } from './awaited'
+import { joined } from './closures'
 import type { AircraftRecord, DayRecord, LegRecord, Seconds } from './record'
 import { isHold } from './record'
 import type { Scenario } from './scenario'
@@ -120,9 +121,11 @@ function crowded(legs: LegRecord[], { state, record }: Sources): Alert[] {
   })
 }
 
+/** Closed routes, and closed vertiports, which also separate reports about all routes can close. */
 function closed(legs: LegRecord[], { record, time }: Sources): Alert[] {
   const id = (vertiport: number) => record.vertiports[vertiport]?.id ?? ''
-  return record.closures.filter(isNow(time)).map((closure): Alert => {
+  const closures = joined(record.closures.filter(isNow(time)), record.vertiports.length)
+  return closures.map((closure): Alert => {
     const vertiport = 'vertiport' in closure ? closure.vertiport : closure.to
     const isMeant = ({ from, to }: LegRecord) =>
       'vertiport' in closure ? to === vertiport : from === closure.from && to === closure.to

@@ -91,13 +91,7 @@ export class Closures {
   }
 
   #routesOf(routes: Routes): RouteRecord[] {
-    if (!('vertiport' in routes)) return [routes]
-    const { vertiport } = routes
-    const others = Array.from({ length: this.vertiports }, (_, at) => at).filter((at) => at !== vertiport)
-    return others.flatMap((other) => [
-      { from: vertiport, to: other },
-      { from: other, to: vertiport },
-    ])
+    return 'vertiport' in routes ? routesOf(routes.vertiport, this.vertiports) : [routes]
   }
 
   #of(route: RouteRecord): Span[] {
@@ -109,6 +103,60 @@ export class Closures {
 
 export function isInForce({ since, until }: { since: Seconds; until?: Seconds }, at: Seconds): boolean {
   return since <= at && (until === undefined || until > at)
+}
+
+type VertiportClosure = Extract<ClosureRecord, { vertiport: number }>
+
+/**
+ * Closures that are in force at the same time, with those of single routes joined where together
+ * they close every route from and to a vertiport. A joined one lasts while all routes are closed.
+ */
+export function joined(inForce: readonly ClosureRecord[], vertiports: number): ClosureRecord[] {
+  const ofRoutes = inForce.flatMap((one) => ('vertiport' in one ? [] : [one]))
+  const ofVertiports = inForce.filter((one) => 'vertiport' in one)
+  const alone = ofRoutes.map(endsOf)
+  const isReported = (vertiport: number) => ofVertiports.some((one) => one.vertiport === vertiport)
+  const found = Array.from({ length: vertiports }, (_, vertiport) => vertiport).flatMap(
+    (vertiport): VertiportClosure[] => {
+      const isStruck = alone.some((ends) => ends.includes(vertiport))
+      if (!isStruck || isReported(vertiport)) return []
+      const spans = routesOf(vertiport, vertiports).map((route) => spanOf(route, inForce))
+      if (!spans.every((span) => span !== undefined)) return []
+      const since = Math.max(...spans.map((span) => span.since))
+      const until = Math.min(...spans.map((span) => span.until))
+      return [{ vertiport, since, ...(until === Infinity ? {} : { until }) }]
+    },
+  )
+  const closed = new Set([...found, ...ofVertiports].map((one) => one.vertiport))
+  const rest = ofRoutes.filter((one) => !endsOf(one).some((end) => closed.has(end)))
+  return [...ofVertiports, ...found, ...rest]
+}
+
+function endsOf({ from, to }: RouteRecord): number[] {
+  return [from, to]
+}
+
+/** The span in which a route is closed by any of the closures. */
+function spanOf(
+  { from, to }: RouteRecord,
+  inForce: readonly ClosureRecord[],
+): { since: Seconds; until: Seconds } | undefined {
+  const its = inForce.filter((one) =>
+    'vertiport' in one ? [from, to].includes(one.vertiport) : one.from === from && one.to === to,
+  )
+  if (its.length === 0) return undefined
+  return {
+    since: Math.min(...its.map(({ since }) => since)),
+    until: Math.max(...its.map(({ until }) => until ?? Infinity)),
+  }
+}
+
+function routesOf(vertiport: number, vertiports: number): RouteRecord[] {
+  const others = Array.from({ length: vertiports }, (_, at) => at).filter((at) => at !== vertiport)
+  return others.flatMap((other) => [
+    { from: vertiport, to: other },
+    { from: other, to: vertiport },
+  ])
 }
 
 function recordOf(routes: Routes, { since, until, reason }: Span): ClosureRecord {
