@@ -1,8 +1,10 @@
-// No key acts on what an open form or list covers. The keys come from the console's own list of
-// keys, and each is pressed on each control of each form.
+// No key acts on what an open form or list of the view Now covers. The keys come from the console's
+// own list of keys, and each is pressed on each control of each form. dialogs.spec.ts has the other
+// views.
 
 import type { Page } from '@playwright/test'
 import type { Fleet } from './support/fleet'
+import { allKeysOf } from './support/keys'
 import { expect, open, panel, test } from './support/test'
 
 interface Form {
@@ -48,16 +50,9 @@ const forms: Form[] = [
   },
 ]
 
-/** The keys of the view, as its list of keys shows them; Enter presses the focused button. */
+/** The single keys and sequences of the view; Enter presses the focused button. */
 async function keysOf(page: Page): Promise<string[][]> {
-  await page.keyboard.press('?')
-  const lists = page.getByRole('dialog', { name: 'Keys' }).locator('dd .keys')
-  await expect(lists.first()).toBeVisible()
-  const keys = await lists.evaluateAll((all) =>
-    all.map((one) => [...one.querySelectorAll('kbd')].map((key) => key.textContent)),
-  )
-  await page.keyboard.press('Escape')
-  await expect(page.getByRole('dialog')).toBeHidden()
+  const keys = await allKeysOf(page)
   return keys.filter((one) => !one.includes('Enter') && !one.some((key) => key.includes(' ')))
 }
 
@@ -75,7 +70,7 @@ for (const form of forms) {
     await open(page, program, fleet)
     await expect(panel(page).getByRole('button', { name: 'Accept' })).toBeEnabled()
     const keys = await keysOf(page)
-    for (const key of ['a', 'o', 'r', 'e', 'u', 'j', 'k', 'w', '?'])
+    for (const key of ['a', 'o', 'r', 'e', 'u', 'j', 'k', 'w', 'f', '?'])
       expect(keys, 'the list has all keys of the view').toContainEqual([key])
     const sent: string[] = []
     page.on('request', (request) => {

@@ -87,7 +87,11 @@ class Commands {
   press(event: KeyboardEvent): void {
     const key = keyOf(event)
     if (key === undefined || event.defaultPrevented || event.isComposing || event.repeat) return
-    if (document.querySelector('dialog[open]') !== null) return
+    if (document.querySelector('dialog[open]') !== null) {
+      // The browser would undo the latest input in a field under the dialog.
+      if (UNDO.includes(key) && !isField(event.target)) event.preventDefault()
+      return
+    }
     const cover = this.#covers.at(-1)
     if (key === 'Escape' && cover !== undefined) {
       event.preventDefault()
@@ -115,12 +119,18 @@ class Commands {
 
 export const commands = new Commands()
 
+const UNDO = ['Mod+z', 'Mod+y']
+
+function isField(target: EventTarget | null): boolean {
+  return target instanceof Element && target.closest('input, textarea, select, [contenteditable]') !== null
+}
+
 /** Whether the focused element handles the key: a field or a button. */
 function isElsewhere(event: KeyboardEvent, key: string): boolean {
   const target = event.target
   if (!(target instanceof Element)) return false
   if (key.startsWith('Mod+')) return false
-  if (target.closest('input, textarea, select, [contenteditable]') !== null) return true
+  if (isField(target)) return true
   return (
     (key === 'Enter' || key === 'Space') &&
     target.closest('button, a, summary, [role=button], [role=option]') !== null
