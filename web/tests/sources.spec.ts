@@ -178,13 +178,13 @@ for (const network of networks) {
       await page.setViewportSize({ width: 1700, height: 1000 })
       await withOutlooks(page, how)
       await open(page, program, fleet)
-      await expect(page.getByText('plan is being computed')).toBeVisible()
+      await expect(page.getByText('computing plan')).toBeVisible()
       const random = randomFrom(11)
       for (let steps = 0; steps < 90; steps++) {
         await step(fleet, random)
         if (steps > 30 && steps % 6 === 0) await expectListAsInState(page, fleet)
       }
-      if (how === 'refused') await expect(page.getByText('plan is being computed')).toBeVisible()
+      if (how === 'refused') await expect(page.getByText('computing plan')).toBeVisible()
     })
   }
 }
@@ -192,5 +192,5 @@ for (const network of networks) {
 test('the plan replaces the notice once it is there', async ({ page, program, fleet }) => {
   await open(page, program, fleet)
   await expect(page.locator('.figures')).toContainText('with prices')
-  await expect(page.getByText('plan is being computed')).toHaveCount(0)
+  await expect(page.getByText('computing plan')).toHaveCount(0)
 })

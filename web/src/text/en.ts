@@ -146,7 +146,7 @@ export const en = {
       'A flight counts from its decision on, before it departs. If the decision is undone, it no longer counts.',
     expected: 'Expected',
     expectedBy: (policy: string) => `with ${policy}`,
-    planning: 'plan is being computed…',
+    planning: 'computing plan…',
     expectedHint: (policy: string) => `The profit of the day if ${policy} takes every decision from now on.`,
     bound: 'Upper bound',
     boundHint:

@@ -28,8 +28,9 @@ const VEIL = { overKnown: 0.5, overExpected: 0.15 }
 /** The width of the bar at the name of the followed aircraft. */
 const FOLLOWED_PX = 4
 
-/** Half the width of the flag with the time. */
+/** Half the width of the flag with the time, for narrow letters, and its least margin. */
 const FLAG_PX = 28
+const FLAG_MARGIN_PX = 4
 
 /** The times above the rows, and the current time in a flag. */
 export function paintAxis(
@@ -39,25 +40,33 @@ export function paintAxis(
   const family = getComputedStyle(context.canvas).fontFamily
   context.textBaseline = 'middle'
   context.textAlign = 'center'
-  context.font = `500 11px ${family}`
-  context.fillStyle = css(colours['ink-soft'])
   const middle = size.height / 2
   const isInView = time >= span.from && time <= span.to
-  const now = Math.max(FLAG_PX, Math.min(size.width - FLAG_PX, pixelOf(span, size.width, time)))
+  const flag = `600 11px ${family}`
+  const half = halfOfFlag(context, flag, clock(time))
+  const now = Math.max(half, Math.min(size.width - half, pixelOf(span, size.width, time)))
+  context.font = `500 11px ${family}`
+  context.fillStyle = css(colours['ink-soft'])
   for (const tick of ticks(span, size.width, TICK_PX)) {
     const x = pixelOf(span, size.width, tick)
-    const isFree = x > 18 && x < size.width - 18 && (!isInView || Math.abs(x - now) > FLAG_PX + 18)
+    const isFree = x > 18 && x < size.width - 18 && (!isInView || Math.abs(x - now) > half + 18)
     if (isFree) context.fillText(clockMinutes(tick), GUTTER_PX + x, middle)
   }
   if (!isInView) return
   const x = GUTTER_PX + now
   context.fillStyle = css(colours['accent-ground'])
   context.beginPath()
-  context.roundRect(x - FLAG_PX, 3, 2 * FLAG_PX, size.height - 6, 4)
+  context.roundRect(x - half, 3, 2 * half, size.height - 6, 4)
   context.fill()
   context.fillStyle = '#fff'
-  context.font = `600 11px ${family}`
+  context.font = flag
   context.fillText(clock(time), x, middle + 0.5)
+}
+
+/** Half the width of the flag; some fonts have wider digits than others. */
+function halfOfFlag(context: CanvasRenderingContext2D, font: string, words: string): number {
+  context.font = font
+  return Math.max(FLAG_PX, context.measureText(words).width / 2 + FLAG_MARGIN_PX)
 }
 
 /** Draws the future paler, and now as a line. */
