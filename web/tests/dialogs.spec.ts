@@ -1,5 +1,5 @@
 // No key acts on what a dialog covers, in the views other than Now, which keys.spec.ts tests. The
-// keys come from the console's own list of keys, and each is pressed on each control of each dialog.
+// keys come from the console's own list of keys. Each is pressed on each control of each dialog.
 
 import type { Locator, Page } from '@playwright/test'
 import type { Fleet } from './support/fleet'

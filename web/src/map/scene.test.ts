@@ -52,6 +52,16 @@ describe('a scene', () => {
     expect(scene.revision).toBeGreaterThan(before)
   })
 
+  it('changes its revision at a take-off, though the stand at the destination was promised before', () => {
+    const scene = at('07:04:00')
+    const { revision, inTheAir } = scene.counts
+    const promised = scene.room.map((_, one) => scene.counts.standsOf(one))
+    scene.show(timeOf('07:05:00'))
+    expect(scene.room.map((_, one) => scene.counts.standsOf(one))).toEqual(promised)
+    expect(scene.counts.inTheAir).toBe(inTheAir + 1)
+    expect(scene.counts.revision).toBeGreaterThan(revision)
+  })
+
   it('shows the given waiting passengers, if there are any', () => {
     const scene = at('07:05:00')
     scene.show(timeOf('07:05:00'), [{ from: 0, to: 1, passengers: 3 }])

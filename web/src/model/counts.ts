@@ -50,7 +50,10 @@ export function holdingOf(
 export class Counts {
   inTheAir = 0
   overdue = 0
-  /** Increases when a number of a vertiport has changed. */
+  /**
+   * Increases when a number has changed. A take-off changes only that of aircraft in the air, since
+   * the stand at the destination is promised before it.
+   */
   revision = 0
   /** The number of stands held at each vertiport, by counted state. */
   held: Uint16Array
@@ -70,11 +73,16 @@ export class Counts {
   count(frame: FleetFrame): void {
     ;[this.held, this.#formerHeld] = [this.#formerHeld, this.held]
     ;[this.#overdueTo, this.#formerOverdueTo] = [this.#formerOverdueTo, this.#overdueTo]
+    const formerInTheAir = this.inTheAir
     ;[this.inTheAir, this.overdue] = [0, 0]
     this.held.fill(0)
     this.#overdueTo.fill(0)
     for (let aircraft = 0; aircraft < frame.size; aircraft++) this.#add(aircraft, frame)
-    if (differ(this.held, this.#formerHeld) || differ(this.#overdueTo, this.#formerOverdueTo)) this.revision++
+    const isSame =
+      this.inTheAir === formerInTheAir &&
+      !differ(this.held, this.#formerHeld) &&
+      !differ(this.#overdueTo, this.#formerOverdueTo)
+    if (!isSame) this.revision++
   }
 
   #add(aircraft: number, frame: FleetFrame): void {
