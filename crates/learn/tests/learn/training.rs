@@ -85,39 +85,29 @@ fn plan(policy: Architecture) -> TrainingRequest {
 }
 
 #[test]
-fn the_same_seed_gives_the_same_weights_on_any_number_of_threads() {
+fn threads_and_interruptions_change_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("checkpoint.safetensors");
+    let on = |threads| ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+    let terminal = plan_with(small_gcaps(), &[("reward", "terminal")]);
     let any_network = plan_with(small_gcaps_x(), &[("random_share", "0.5")]);
     let by_itself = plan_with(small_gcaps_full(), &[("own_rounds", "1"), ("samples", "40")]);
     let [gcaps, mlp] = [small_gcaps(), small_mlp()].map(|policy| short(policy, "imitation", &[]));
-    let mornings = [plan(small_gcaps()), plan(small_mlp()), any_network, by_itself, gcaps, mlp];
+    let mornings = [terminal, plan(small_mlp()), any_network, by_itself, gcaps, mlp];
     let new_places = [small_gcaps_full(), small_mlp_full(), small_mlp()]
         .map(|policy| TrainingRequest { world: World::RandomPlaces(5), ..plan(policy) });
     for plan in mornings.map(on_mornings).into_iter().chain(new_places) {
-        let on = |threads| {
-            let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-            pool.install(|| remains(finished(plan.clone().start().expect("a plan")).as_ref()))
-        };
-        assert!(on(1) == on(3), "{plan:?}");
-    }
-}
-
-#[test]
-fn a_run_that_was_interrupted_ends_as_if_it_had_not_been() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("checkpoint.safetensors");
-    let terminal = plan_with(small_gcaps(), &[("reward", "terminal")]);
-    let by_itself = plan_with(small_gcaps_x(), &[("own_rounds", "1"), ("samples", "40")]);
-    let imitating = short(small_gcaps(), "imitation", &[]);
-    let full = plan(small_gcaps_full());
-    let plans = [terminal, plan(small_gcaps_x()), by_itself, imitating, full];
-    for plan in plans.map(on_mornings) {
-        let whole = finished(plan.clone().start().expect("a plan"));
-        let mut first = plan.clone().start().expect("a plan");
-        advance(first.as_mut());
-        first.write_checkpoint(&path).expect("a folder to write to");
-        let rest = plan.clone().resume(&path).expect("its run");
-        assert_eq!((rest.curve(), rest.work()), (first.curve(), first.work()));
-        assert!(remains(finished(rest).as_ref()) == remains(whole.as_ref()), "{plan:?}");
+        let start = || plan.clone().start().expect("a plan");
+        let whole = on(1).install(|| remains(finished(start()).as_ref()));
+        let resumed = on(3).install(|| {
+            let mut first = start();
+            advance(first.as_mut());
+            first.write_checkpoint(&path).expect("a folder to write to");
+            let rest = plan.clone().resume(&path).expect("its run");
+            assert_eq!((rest.curve(), rest.work()), (first.curve(), first.work()));
+            remains(finished(rest).as_ref())
+        });
+        assert!(resumed == whole, "{plan:?}");
     }
 }
 
