@@ -63,18 +63,28 @@ def grid(network: str, case: tuple, days: int, folder: Path) -> tuple[list[tuple
     by_demand = sorted(overview["vertiports"], key=lambda one: -one["departing"])
     half = len(by_demand) // 2
     costs = [f"tariffs.aircraft_cost_usd_per_day={aircraft_usd}", f"tariffs.stand_cost_usd_per_day={stand_usd}"]
-    varied = [f"fleet.{kind}.count={steps(fleets)}" for kind in types]
     found = []
     for large, small in itertools.product(stands, stands):
         numbers = [(one["id"], large if at < half else small) for at, one in enumerate(by_demand)]
         settings = costs + [f"vertiports.{place}.stands={number}" for place, number in numbers]
         room = sum(number for _, number in numbers)
-        for cell in cells(network, settings + varied, days, 1, folder):
+        grids = fleets_of(types, fleets)
+        for cell in (cell for varied in grids for cell in cells(network, settings + varied, days, 1, folder)):
             counts = cell["settings"][-len(types):]
-            if cell["left_out"] is None and 0 < sum(counts) < room:
+            if cell["left_out"] is None and sum(counts) < room:
                 fleet = [f"fleet.{kind}.count={count}" for kind, count in zip(types, counts)]
                 found.append((cell["results"][0]["profit_usd"]["mean"], settings + fleet))
     return sorted(found, key=lambda one: -one[0]), len(found)
+
+
+def fleets_of(types: list[str], fleets: range) -> list[list[str]]:
+    """What varies in the sweeps over all fleets with an aircraft; a sweep refuses a fleet without any."""
+    some = range(fleets.step, fleets.stop, fleets.step) if fleets[0] == 0 else fleets
+    if len(types) == 1:
+        return [[f"fleet.{types[0]}.count={steps(some)}"]]
+    first, second = types
+    without_first = [[f"fleet.{first}.count=0", f"fleet.{second}.count={steps(some)}"]]
+    return without_first * (fleets[0] == 0) + [[f"fleet.{first}.count={steps(some)}", f"fleet.{second}.count={steps(fleets)}"]]
 
 
 def cells(network: str, settings: list[str], days: int, seed: int, folder: Path) -> list[dict]:
