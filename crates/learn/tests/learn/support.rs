@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use rayon::ThreadPoolBuilder;
 use vertifleet_core::{Network, Stop};
 use vertifleet_learn::{Curve, TrainingRequest, TrainingRun};
 
@@ -32,4 +33,23 @@ pub(crate) fn remains(run: &dyn TrainingRun) -> (Vec<u8>, Vec<u8>, Curve) {
     let path = folder.path().join("checkpoint");
     run.write_checkpoint(&path).expect("a folder to write to");
     (std::fs::read(path).expect("the checkpoint"), run.model().to_bytes(), run.curve())
+}
+
+/// Asserts that a run that is interrupted on three threads ends as one that is not, on one thread.
+/// Returns the run as it was at the interruption.
+pub(crate) fn interrupted(plan: &TrainingRequest) -> Box<dyn TrainingRun> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("checkpoint.safetensors");
+    let on = |threads| ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+    let start = || plan.clone().start().expect("a plan");
+    let whole = on(1).install(|| remains(finished(start()).as_ref()));
+    on(3).install(|| {
+        let mut first = start();
+        advance(first.as_mut());
+        first.write_checkpoint(&path).expect("a folder to write to");
+        let rest = plan.clone().resume(&path).expect("its run");
+        assert_eq!((rest.curve(), rest.work()), (first.curve(), first.work()));
+        assert!(remains(finished(rest).as_ref()) == whole, "{plan:?}");
+        first
+    })
 }

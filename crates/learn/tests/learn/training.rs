@@ -4,8 +4,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::support::{advance, finished, on_mornings, remains};
-use rayon::ThreadPoolBuilder;
+use crate::support::{advance, finished, interrupted, on_mornings, remains};
 use vertifleet_core::{Coded, DaySeed, Network, Purpose, Stop, World};
 use vertifleet_learn::nn::{Adjacency, Architecture, GcapsSettings, GraphSettings, MlpSettings};
 use vertifleet_learn::{Error, Model, TrainingRequest, TrainingSettings};
@@ -85,29 +84,25 @@ fn plan(policy: Architecture) -> TrainingRequest {
 }
 
 #[test]
-fn threads_and_interruptions_change_nothing() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("checkpoint.safetensors");
-    let on = |threads| ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+fn threads_and_interruptions_change_nothing_by_ppo() {
     let terminal = plan_with(small_gcaps(), &[("reward", "terminal")]);
-    let any_network = plan_with(small_gcaps_x(), &[("random_share", "0.5")]);
-    let by_itself = plan_with(small_gcaps_full(), &[("own_rounds", "1"), ("samples", "40")]);
-    let [gcaps, mlp] = [small_gcaps(), small_mlp()].map(|policy| short(policy, "imitation", &[]));
-    let mornings = [terminal, plan(small_mlp()), any_network, by_itself, gcaps, mlp];
+    let mornings = [plan(small_gcaps()), plan(small_mlp()), terminal].map(on_mornings);
     let new_places = [small_gcaps_full(), small_mlp_full(), small_mlp()]
         .map(|policy| TrainingRequest { world: World::RandomPlaces(5), ..plan(policy) });
-    for plan in mornings.map(on_mornings).into_iter().chain(new_places) {
-        let start = || plan.clone().start().expect("a plan");
-        let whole = on(1).install(|| remains(finished(start()).as_ref()));
-        let resumed = on(3).install(|| {
-            let mut first = start();
-            advance(first.as_mut());
-            first.write_checkpoint(&path).expect("a folder to write to");
-            let rest = plan.clone().resume(&path).expect("its run");
-            assert_eq!((rest.curve(), rest.work()), (first.curve(), first.work()));
-            remains(finished(rest).as_ref())
-        });
-        assert!(resumed == whole, "{plan:?}");
+    for plan in mornings.into_iter().chain(new_places) {
+        interrupted(&plan);
+    }
+}
+
+#[test]
+fn threads_and_interruptions_change_nothing_by_imitation() {
+    let any_network = plan_with(small_gcaps_x(), &[("random_share", "0.5")]);
+    let by_themselves = [small_gcaps_full(), small_gcaps_x()]
+        .map(|policy| plan_with(policy, &[("own_rounds", "1"), ("samples", "40")]));
+    let papers = [small_gcaps(), small_mlp()].map(|policy| short(policy, "imitation", &[]));
+    let plans = [plan(small_gcaps_x()), plan(small_gcaps_full()), any_network];
+    for plan in plans.into_iter().chain(by_themselves).chain(papers) {
+        interrupted(&on_mornings(plan));
     }
 }
 
