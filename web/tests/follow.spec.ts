@@ -136,16 +136,6 @@ test('following begins and ends by key, in each view of the day', async ({ page,
   await expect(page.getByRole('heading', { name: /^Following/ })).toHaveCount(0)
 })
 
-test('a selection that changes as the view opens leaves the commands of the view', async ({
-  page,
-  program,
-  fleet,
-}) => {
-  await open(page, program, fleet)
-  await page.keyboard.press('e')
-  await expect(page.getByRole('dialog', { name: 'Report an event' })).toBeVisible()
-})
-
 test('the timeline brings the row of the followed aircraft into view', async ({ page, program }) => {
   await new Fleet(program.url, '').ask('PUT', '/v1/networks/two-hundred', { toml: networkOfTwoHundred() })
   const fleet = await Fleet.onNewDay(program.url, { network: 'two-hundred', seed: 1, policy: 'greedy' })

@@ -1,8 +1,8 @@
 // Every view of the shell: reached by key, accessible, and within the width of a phone.
 
+import type { Page } from '@playwright/test'
 import { dollars } from '../src/model/money'
 import { Fleet, smallNetwork } from './support/fleet'
-import type { Page } from '@playwright/test'
 import { expect, expectAccessible, expectAccessibleInBoth, open, panel, test, waiting } from './support/test'
 
 const views = ['now', 'timeline', 'what-if', 'log', 'replay'] as const

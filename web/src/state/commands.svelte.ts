@@ -31,43 +31,48 @@ interface Cover {
   close: () => void
 }
 
-class Commands {
-  #lists = $state.raw<readonly Command[][]>([])
-  /** The open forms and lists, the latest last. */
-  #covers = $state.raw<readonly Cover[]>([])
+/** What effects have added and not removed yet, the latest last. */
+class Added<T> {
+  all = $state.raw<readonly T[]>([])
   // The same without reactivity, for changes. The end of an effect reads states as they were before
   // the changes of the same moment, so it would lose what another effect has just added.
-  #latestLists = this.#lists
-  #latestCovers = this.#covers
+  #latest = this.all
+
+  /** Adds one until the returned function is called. */
+  add(added: T): () => void {
+    this.all = this.#latest = [...this.#latest, added]
+    return () => {
+      this.all = this.#latest = this.#latest.filter((one) => one !== added)
+    }
+  }
+}
+
+class Commands {
+  readonly #lists = new Added<Command[]>()
+  /** The open forms and lists. */
+  readonly #covers = new Added<Cover>()
   readonly #sequence = new Sequence()
 
   /** All commands, those of the view before those of the shell. */
   get all(): Command[] {
-    const lastAdded = this.#lists.toReversed().flat()
+    const lastAdded = this.#lists.all.toReversed().flat()
     const ids = lastAdded.map((command) => command.id)
     return lastAdded.filter((command, index) => ids.indexOf(command.id) === index)
   }
 
   /** Adds commands until the returned function is called: `$effect(() => commands.add([...]))`. */
   add(list: Command[]): () => void {
-    this.#lists = this.#latestLists = [...this.#latestLists, list]
-    return () => {
-      this.#lists = this.#latestLists = this.#latestLists.filter((one) => one !== list)
-    }
+    return this.#lists.add(list)
   }
 
   /** Covers the view with an open form or list, until the returned function is called. */
   cover(close: () => void): () => void {
-    const cover = { close }
-    this.#covers = this.#latestCovers = [...this.#latestCovers, cover]
-    return () => {
-      this.#covers = this.#latestCovers = this.#latestCovers.filter((one) => one !== cover)
-    }
+    return this.#covers.add({ close })
   }
 
   /** Whether a form or a list is open. */
   get isCovered(): boolean {
-    return this.#covers.length > 0
+    return this.#covers.all.length > 0
   }
 
   /** Whether a command can run now. */
@@ -92,7 +97,7 @@ class Commands {
       if (UNDO.includes(key) && !isField(event.target)) event.preventDefault()
       return
     }
-    const cover = this.#covers.at(-1)
+    const cover = this.#covers.all.at(-1)
     if (key === 'Escape' && cover !== undefined) {
       event.preventDefault()
       cover.close()
