@@ -192,6 +192,24 @@ for (const [index, { name, view, open: opens }] of dialogs.entries()) {
   })
 }
 
+test('a dialog opens again at a key that comes right after Escape', async ({ page, program, fleet }) => {
+  await open(page, program, fleet, 'log')
+  for (const [key, name] of [
+    ['Control+k', 'Find a command'],
+    ['?', 'Keys'],
+  ] as const) {
+    await page.keyboard.press(key)
+    await expect(shown(page, name)).toBeVisible()
+    for (let time = 0; time < 20; time++) {
+      // Both are on their way before the browser reports that the dialog has closed.
+      await Promise.all([page.keyboard.press('Escape'), page.keyboard.press(key)])
+      await expect(shown(page, name)).toBeVisible()
+    }
+    await page.keyboard.press('Escape')
+    await expect(shown(page, name)).toBeHidden()
+  }
+})
+
 test('keys that are typed into the form of a what-if compare nothing', async ({ page, program, fleet }) => {
   await views['what-if'].show(page, program, fleet)
   const keys = asPressed(await allKeysOf(page)).filter((one) => !one.includes('Control+k'))
