@@ -20,7 +20,6 @@ from gymnasium.wrappers import FlattenObservation  # noqa: E402
 from sb3_contrib import MaskablePPO  # noqa: E402
 from sb3_contrib.common.maskable.callbacks import MaskableEvalCallback  # noqa: E402
 from sb3_contrib.common.maskable.evaluation import evaluate_policy  # noqa: E402
-from sb3_contrib.common.maskable.utils import get_action_masks, is_masking_supported  # noqa: E402
 from stable_baselines3.common.evaluation import evaluate_policy as evaluate_without_masks  # noqa: E402
 from stable_baselines3.common.utils import LinearSchedule  # noqa: E402
 from stable_baselines3.common.vec_env import DummyVecEnv, VecMonitor, VecNormalize  # noqa: E402
@@ -51,24 +50,6 @@ def tensors(observations):
     return {name: torch.from_numpy(column) for name, column in observations.items()}
 
 
-def test_parallel_days_are_an_environment_with_masks():
-    days = FleetVecEnv(NETWORK, 3)
-    days.seed(5)
-    observations = days.reset()
-    assert is_masking_supported(days)
-    for _ in range(50):
-        masks = get_action_masks(days)
-        assert masks.dtype == bool
-        np.testing.assert_array_equal(masks, observations["action_mask"] > 0)
-        observations, rewards, over, infos = days.step(masks.argmax(axis=1))
-        assert rewards.shape == over.shape == (3,)
-        assert rewards.dtype == np.float32
-        assert ["summary" in info for info in infos] == over.tolist()
-        assert not any(info["invalid_action"] for info in infos)
-        for name, column in observations.items():
-            assert column.shape == (3, *days.observation_space[name].shape)
-
-
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_the_default_policy_learns_from_every_registered_observation(variant):
     days = gymnasium.make(variant)
@@ -77,75 +58,6 @@ def test_the_default_policy_learns_from_every_registered_observation(variant):
     observation, info = days.reset(seed=1)
     choice, _ = agent.predict(observation, action_masks=info["action_mask"].astype(bool))
     assert info["action_mask"][choice] == 1
-
-
-def test_parallel_days_have_the_requested_parts_and_split():
-    days = FleetVecEnv(NETWORK, 2, observation=["time", "place"], split="validation")
-    observations = days.reset()
-    assert set(observations) == {"time", "place", "action_mask"}
-    # Days of validation have seeds from 2^40 on, and days of training from 2^41 on.
-    seeds = [int(day.name.removeprefix("paper-")) for day in days.days.scenarios()]
-    assert all(2**40 <= seed < 2**41 for seed in seeds)
-    agent = MaskablePPO("MultiInputPolicy", days, n_steps=8, batch_size=8, device="cpu")
-    agent.learn(16)
-
-
-def test_a_mask_that_a_wrapper_has_changed_is_refused():
-    days = VecNormalize(FleetVecEnv(NETWORK, 2))
-    agent = learner("mlp", days)
-    with pytest.raises(Error, match="action_mask must be 0 or 1") as error:
-        agent.learn(64)
-    assert "norm_obs_keys" in str(error.value) or "norm_obs_keys" in (error.value.hint or "")
-    twin = Mlp(8, width=16, layers=1, value_width=16)
-    shown, _ = FleetEnv(NETWORK).reset(seed=1)
-    with pytest.raises(Error, match="action_mask must be 0 or 1"):
-        act(twin, shown | {"action_mask": shown["action_mask"] * 0.5})
-
-
-def test_the_same_seed_gives_the_same_days():
-    def first(seed):
-        days = FleetVecEnv(NETWORK, 2)
-        days.seed(seed)
-        return days.reset()["nodes"]
-
-    np.testing.assert_array_equal(first(1), first(1))
-    assert not np.array_equal(first(1), first(2))
-    assert not np.array_equal(first(1)[0], first(1)[1])
-
-
-def play_until_one_is_over(days):
-    """Takes the first feasible action; returns the rewards of each day up to the step in which a day ends."""
-    days.seed(2)
-    days.reset()
-    rewards = []
-    while True:
-        observations, reward, over, infos = days.step(days.action_masks().argmax(axis=1))
-        rewards.append(reward)
-        if over.any():
-            return observations, np.array(rewards), over, infos
-
-
-def test_the_next_day_begins_when_one_ends_whose_infos_have_its_reward():
-    days = FleetVecEnv(NETWORK, 2, "dense", reward_scale=100.0)
-    observations, rewards, over, infos = play_until_one_is_over(days)
-    ended = int(over.argmax())
-    told = infos[ended]
-    assert told["episode"]["l"] == len(rewards)
-    assert told["episode"]["r"] == pytest.approx(rewards[:, ended].sum() / 100.0, rel=1e-4)
-    assert told["TimeLimit.truncated"] is False
-    assert told["terminal_observation"].keys() == observations.keys()
-    # The day that ended had no time left; the observation belongs to the new day.
-    assert told["terminal_observation"]["clock"] == 0.0
-    assert observations["clock"][ended] == 1.0
-
-
-def test_a_step_leaves_earlier_observations_as_they_were():
-    days = FleetVecEnv(NETWORK, 2)
-    before = days.reset()
-    kept = {name: column.copy() for name, column in before.items()}
-    days.step(days.action_masks().argmax(axis=1))
-    for name, column in before.items():
-        np.testing.assert_array_equal(column, kept[name])
 
 
 @pytest.mark.parametrize("kind", POLICIES)
@@ -264,34 +176,6 @@ def test_a_falling_learning_rate_falls_to_nothing():
     rate = ppo_settings(vertifleet.settings("default"))["learning_rate"]
     assert [rate(left) for left in (1.0, 0.5, 0.0)] == pytest.approx([4e-4, 2e-4, 0.0])
     assert not math.isnan(rate(0.25))
-
-
-def test_infos_report_infeasible_actions_and_ended_days():
-    days = FleetVecEnv(NETWORK, 2, reward_scale=100.0)
-    observations = days.reset()
-    told = 0
-    # In the longest possible day, each of 40 aircraft holds 49 times.
-    for _ in range(2100):
-        infeasible = observations["action_mask"].argmin(axis=1)
-        expected = [not mask[action] for mask, action in zip(days.action_masks(), infeasible, strict=True)]
-        observations, rewards, over, infos = days.step(infeasible)
-        assert [info["invalid_action"] for info in infos] == expected
-        for reward, info in zip(rewards[over], (info for info in infos if "summary" in info), strict=True):
-            assert reward == pytest.approx(100.0 * info["summary"]["reward"])
-            assert info["episode"]["r"] == info["summary"]["reward"]
-            told += 1
-    assert told >= 2
-
-
-def test_given_days_are_played():
-    day = NETWORK.draw(3)
-    days = FleetVecEnv(NETWORK, 2)
-    days.set_options({"scenario": day})
-    shown = days.reset()
-    single, _ = FleetEnv(NETWORK).reset(options={"scenario": day})
-    for row in range(2):
-        np.testing.assert_array_equal(shown["nodes"][row], single["nodes"])
-    assert not np.array_equal(days.reset()["nodes"][0], single["nodes"]), "options apply to one reset only"
 
 
 def test_what_the_program_would_not_do_is_not_exported(tmp_path):
@@ -416,6 +300,18 @@ def test_what_is_not_feasible_is_not_chosen_without_masks_either(kind):
         seen, *_ = days.step(choices)
 
 
+def test_a_mask_that_a_wrapper_has_changed_is_refused():
+    days = VecNormalize(FleetVecEnv(NETWORK, 2))
+    agent = learner("mlp", days)
+    with pytest.raises(Error, match="action_mask must be 0 or 1") as error:
+        agent.learn(64)
+    assert "norm_obs_keys" in str(error.value) or "norm_obs_keys" in (error.value.hint or "")
+    twin = Mlp(8, width=16, layers=1, value_width=16)
+    shown, _ = FleetEnv(NETWORK).reset(seed=1)
+    with pytest.raises(Error, match="action_mask must be 0 or 1"):
+        act(twin, shown | {"action_mask": shown["action_mask"] * 0.5})
+
+
 def test_evaluations_report_the_reward_of_the_day_with_masks_or_without(tmp_path):
     day = NETWORK.draw(1, "validation")
     model = learned(days=FleetVecEnv(NETWORK, 2, "dense", reward_scale=100.0))
@@ -430,18 +326,18 @@ def test_evaluations_report_the_reward_of_the_day_with_masks_or_without(tmp_path
         assert mean == pytest.approx(expected, rel=1e-5)
 
 
-def test_logs_and_evaluations_report_the_callers_own_reward(tmp_path):
+def test_an_evaluation_callback_reports_the_reward_of_the_day():
+    days = FleetVecEnv(NETWORK, 2, reward_scale=1e6)
+    looking = MaskableEvalCallback(days, n_eval_episodes=2, eval_freq=32, verbose=0)
+    learner("mlp", FleetVecEnv(NETWORK, 2)).learn(64, callback=looking)
+    assert 0.0 < abs(looking.last_mean_reward) < 1.0
+
+
+def test_an_evaluation_callback_reports_the_callers_own_reward(tmp_path):
     def decided(view, outcome):
         assert view.decision.time_s == outcome["time_s"]
         return 1.0
 
-    days = FleetVecEnv(NETWORK, 2, decided, reward_scale=0.5)
-    for _ in range(2):
-        _, rewards, over, infos = play_until_one_is_over(days)
-        for info in (infos[day] for day in np.flatnonzero(over)):
-            assert info["episode"]["r"] == info["episode"]["l"] > 100
-            assert info["summary"]["reward"] < 1.0
-        assert (rewards == 0.5).all()
     looking = MaskableEvalCallback(
         FleetVecEnv(NETWORK, 2, decided), n_eval_episodes=2, eval_freq=32, verbose=0, deterministic=True
     )
@@ -450,13 +346,6 @@ def test_logs_and_evaluations_report_the_callers_own_reward(tmp_path):
     assert looking.last_mean_reward > 100
     export(model, tmp_path / "own.safetensors")
     assert vertifleet.Model.read(tmp_path / "own.safetensors").header["settings"] is None
-
-
-def test_an_evaluation_callback_reports_the_reward_of_the_day():
-    days = FleetVecEnv(NETWORK, 2, reward_scale=1e6)
-    looking = MaskableEvalCallback(days, n_eval_episodes=2, eval_freq=32, verbose=0)
-    learner("mlp", FleetVecEnv(NETWORK, 2)).learn(64, callback=looking)
-    assert 0.0 < abs(looking.last_mean_reward) < 1.0
 
 
 @pytest.mark.parametrize(
