@@ -122,6 +122,21 @@ describe('a jump of the clock', () => {
     expect(pace.speed).toBeCloseTo(1, 5)
   })
 
+  it('may be as short as a few minutes', () => {
+    const pace = new Pace()
+    for (let second = 0; second <= 60; second += 10) pace.observe(21_600 + second, 1_000 * second)
+    pace.observe(22_200, 61_500)
+    expect(pace.speed).toBe(0)
+    pace.observe(22_210, 71_500)
+    expect(pace.speed).toBeCloseTo(1, 5)
+  })
+
+  it('is the speed of a fast day if another follows', () => {
+    const pace = new Pace()
+    for (let second = 0; second < 5; second++) pace.observe(21_600 + 240 * second, 1_000 * second)
+    expect(pace.speed).toBeCloseTo(240, 5)
+  })
+
   it('differs from a fast day in its speed so far', () => {
     const pace = new Pace()
     for (let at = 0; at < 30; at++) pace.observe(21_600 + 60 * at, 100 * at)

@@ -21,7 +21,7 @@ const CATCH_UP_MS = 700
  */
 const JUMP_MS = 4_000
 /** A step of the day's time is a jump if it is this long, and this many times as fast as before. */
-const LEAST_JUMP_S = 600
+const LEAST_JUMP_S = 120
 const JUMP_FACTOR = 20
 /** Without news the clock runs this many times as long as the longest silence so far. */
 const RUN_ON_FACTOR = 1.5
@@ -46,6 +46,8 @@ interface News {
 export class Pace {
   #news: News[] = []
   #shown: News | undefined
+  /** Whether the latest observation was a jump. */
+  #hasJumped = false
   /**
    * Whether aircraft wait for decisions. A simulated day then stands still; a real day does not.
    */
@@ -58,7 +60,10 @@ export class Pace {
   observe(time: Seconds, at_ms: number): void {
     const latest = this.#news.at(-1)
     if (latest !== undefined && time <= latest.time) return
-    if (latest !== undefined && this.#isJump(latest, { time, at_ms })) this.#news = []
+    const isJump = latest !== undefined && this.#isJump(latest, { time, at_ms })
+    // Two in sequence are the speed of a fast day.
+    if (isJump && !this.#hasJumped) this.#news = []
+    this.#hasJumped = isJump && !this.#hasJumped
     this.#news.push({ time, at_ms })
     const old = this.#news.findIndex((news) => news.at_ms >= at_ms - WINDOW_MS)
     if (old > 0) this.#news = this.#news.slice(Math.max(0, Math.min(old, this.#news.length - 2)))
