@@ -189,6 +189,16 @@ describe('a flight without the energy for its way', () => {
     expect(found.filter(({ matter }) => matter.kind === 'notice')).toHaveLength(1)
   })
 
+  it('is the same alert in flight, where its charge is no other, and after its landing', () => {
+    const flight = { decided: SEVEN - 900, lands_with_kwh: -3 }
+    const low = leg({ ...flight, awaited: { report: 'landing', due: SEVEN + 600 } })
+    const notices = [{ ...without, seq: null }]
+    const inFlight = alerts({ chargesAsNeeded: true, legs: [low], notices })
+    expect(inFlight.map(({ severity }) => severity)).toEqual(['critical'])
+    const landed = alerts({ chargesAsNeeded: true, legs: [leg(flight)], notices: [{ ...without, seq: 4 }] })
+    expect(landed.map(({ key, severity }) => [key, severity])).toEqual([[inFlight[0]?.key, 'warning']])
+  })
+
   it('has low charge above a closed route that is as severe', () => {
     const closures = [{ from: 0, to: 2, since: SEVEN - 3600 }]
     const low = leg({ awaited: { report: 'landing', due: SEVEN + 600 }, energy_kwh: 133 })

@@ -69,12 +69,13 @@ interface Sources {
 /** All alerts at one time, the most severe first; equally severe ones by kind and age. */
 export function alertsOf(sources: Sources): Alert[] {
   const legs = sources.record.legs.filter((leg) => !leg.is_expected)
+  const lacking = withoutEnergy(sources.state)
   const found = [
     ...legs.flatMap((leg) => overdue(leg, sources.record)),
     ...crowded(legs, sources),
     ...closed(legs, sources),
     ...outOfService(sources),
-    ...legs.flatMap((leg) => lowCharge(leg, sources)),
+    ...legs.flatMap((leg) => lowCharge(leg, sources, lacking)),
   ]
   const all = new Map([...found, ...notices(sources, found)].map((alert) => [alert.key, alert]))
   const rank = ({ severity }: Alert) => SEVERITIES.indexOf(severity)
@@ -156,9 +157,15 @@ function outOfService({ record, time }: Sources): Alert[] {
   })
 }
 
-function lowCharge(leg: LegRecord, { record, scenario }: Sources): Alert[] {
+/** A flight that lacks the energy to land at all has an alert of the service's notice. */
+function lowCharge(
+  leg: LegRecord,
+  { record, scenario }: Sources,
+  lacking: ReadonlySet<string | null | undefined>,
+): Alert[] {
   const aircraft = record.aircraft[leg.aircraft]
   if (leg.awaited === undefined || isHold(leg) || aircraft === undefined) return []
+  if (lacking.has(aircraft.id)) return []
   if (record.chargesAsNeeded === true && !isBelowReserve(leg, aircraft, scenario)) return []
   const left_kwh = leg.lands_with_kwh ?? aircraft.battery_kwh - (leg.energy_kwh ?? 0)
   const left = left_kwh / aircraft.battery_kwh
@@ -191,38 +198,40 @@ function isBelowReserve(
 
 /**
  * Notices of the service: all that came with events. Of the current ones, those that no other alert
- * covers.
+ * covers. A lack of energy is a notice of its report and of its flight; it is one alert, whose key
+ * stays the same after the landing.
  */
 function notices({ state, events, record }: Sources, found: readonly Alert[]): Alert[] {
   const covered = new Set(found.map(({ matter }) => aboutOf(matter)))
-  const underWay = new Map(state.aircraft.map(({ id, flight }) => [id, flight?.decided ?? '']))
+  const legs = record.legs.filter((leg) => !leg.is_expected && !isHold(leg))
+  const lacking = withoutEnergy(state)
   return state.notices.flatMap(({ seq, code, text, aircraft, vertiport }): Alert[] => {
     const about = aircraft ?? vertiport ?? undefined
     if (seq == null && covered.has(`${COVERED[code as keyof typeof COVERED]} ${about}`)) return []
-    // A lack of energy is a notice of the report and of the flight; it is one alert.
-    if (seq != null && code === WITHOUT_ENERGY && state.notices.some((one) => isSameNow(one, code, aircraft)))
-      return []
+    const isEnergy = code === WITHOUT_ENERGY
+    if (seq != null && isEnergy && lacking.has(aircraft)) return []
     const event = events.find((taken) => taken.seq === seq)?.event
-    const flight = aircraft == null ? '' : (underWay.get(aircraft) ?? '')
+    const since = event?.time == null ? undefined : timeOf(event.time)
     const place = record.aircraft.findIndex(({ id }) => id === aircraft)
+    const isIts = (leg: LegRecord) => leg.aircraft === place && leg.decided <= (since ?? Infinity)
+    const flight = isEnergy || seq == null ? legs.findLast(isIts)?.decided : undefined
     return [
       {
-        key: `notice ${code} ${about ?? ''} ${seq ?? flight}`,
-        severity: code === WITHOUT_ENERGY ? 'critical' : 'warning',
+        key: `notice ${code} ${about ?? ''} ${flight ?? seq ?? ''}`,
+        // Once the aircraft has landed, its report was wrong and no one is in danger.
+        severity: isEnergy && seq == null ? 'critical' : 'warning',
         matter: { kind: 'notice', text },
-        since: event?.time == null ? undefined : timeOf(event.time),
+        since,
         target: place < 0 ? undefined : { kind: 'aircraft', aircraft: place },
       },
     ]
   })
 }
 
-function isSameNow(
-  other: DayState['notices'][number],
-  code: string,
-  aircraft: string | null | undefined,
-): boolean {
-  return other.seq == null && other.code === code && other.aircraft === aircraft
+/** The aircraft under way that lack the energy for their flight. */
+function withoutEnergy({ notices }: DayState): Set<string | null | undefined> {
+  const now = notices.filter(({ seq, code }) => seq == null && code === WITHOUT_ENERGY)
+  return new Set(now.map(({ aircraft }) => aircraft))
 }
 
 /** The kind and subject of an alert that the service has a notice about too. */
