@@ -4,6 +4,7 @@
 import type { Page } from '@playwright/test'
 import type { DayState, Outlook, TakenEvent } from '../src/api/types'
 import { isInForce } from '../src/model/closures'
+import { withoutCorrected } from '../src/model/corrected'
 import { Counts } from '../src/model/counts'
 import { liveRecord } from '../src/model/live'
 import { Fleet as Motion, NONE } from '../src/model/motion'
@@ -14,7 +15,7 @@ import { clock, timeOf } from '../src/model/time'
 import { recordOf } from '../src/model/traces'
 import { Fleet } from './support/fleet'
 import { expect, open, test } from './support/test'
-import { closureOf, randomFrom, step } from './support/turbulent'
+import { anyEvent, randomFrom, step } from './support/turbulent'
 
 const networks = ['new-york-quick', 'disrupted']
 const STEPS = 81
@@ -73,6 +74,15 @@ function stated({ now, aircraft, vertiports }: DayState): unknown {
   return { now, aircraft: aircraft.map(flying), vertiports: counted }
 }
 
+/** Every flight, so that none is missing. A diverted one ends elsewhere. */
+function flights(legs: DayRecord['legs']): string[] {
+  const key = (leg: DayRecord['legs'][number]) => [leg.aircraft, leg.decided, leg.from, leg.arrives].join()
+  return legs
+    .filter((leg) => !isHold(leg))
+    .map(key)
+    .sort()
+}
+
 for (const network of networks) {
   test(`places and flights are right whatever the plan and the trace, on ${network}`, async ({ program }) => {
     const fleet = await Fleet.onNewDay(program.url, { network, seed: 4, policy: 'greedy' })
@@ -92,39 +102,60 @@ for (const network of networks) {
         expect(pictured(shown(known, plan), known.state)).toEqual(stated(known.state))
       if (steps % 20 === 0) trace = await traceNow()
       if (steps % 40 !== 0) continue
-      // Every flight is that of the service, and none is missing. A diverted one ends elsewhere.
-      const key = (leg: DayRecord['legs'][number]) =>
-        [leg.aircraft, leg.decided, leg.from, leg.arrives].join()
-      const legs = shown(known, former).legs.filter((leg) => !leg.is_expected && !isHold(leg))
-      const flown = recordOf(scenario, await traceNow()).legs.filter((leg) => !isHold(leg))
-      expect(legs.map(key).sort()).toEqual(flown.map(key).sort())
+      const legs = shown(known, former).legs.filter((leg) => !leg.is_expected)
+      expect(flights(legs)).toEqual(flights(recordOf(scenario, await traceNow()).legs))
     }
     expect((await fleet.state()).totals.flights).toBeGreaterThan(30)
   })
 }
 
-test('the closures are those of the service after any reports', async ({ program }) => {
-  for (const seed of [1, 2, 3]) {
-    const fleet = await Fleet.onSmallDay(program.url)
-    const scenario = (await fleet.ask('GET', `/v1/days/${fleet.day}/scenario`)) as Scenario
-    const random = randomFrom(seed)
-    for (let steps = 0; steps < 30; steps++) {
-      const state = await fleet.state()
-      // Some reports come late, and some move the clock.
-      const time = clock(timeOf(state.now) + Math.floor(900 * random() - 300))
-      const event = { ...closureOf(state, random), time }
-      await fleet.report(event).catch(() => undefined)
-      const now = await fleet.state()
-      const reports = new Reports(scenario)
-      for (const taken of await fleet.events()) reports.take(taken)
-      expect(closedNow(reports, now), JSON.stringify(event)).toEqual(
-        now.vertiports
-          .flatMap(({ id, closed }) => closed.map(({ to, until }) => `${id} ${to} ${until ?? ''}`))
-          .sort(),
-      )
+for (const network of [...networks, 'paper-quick'])
+  test(`the console's day is the service's after each of any events, on ${network}`, async ({ program }) => {
+    for (const seed of [1, 2, 3]) {
+      const fleet = await Fleet.onNewDay(program.url, { network, seed, policy: 'greedy' })
+      const scenario = (await fleet.ask('GET', `/v1/days/${fleet.day}/scenario`)) as Scenario
+      const random = randomFrom(seed)
+      let [older, taken] = ['', 0]
+      for (let steps = 0; steps < 120; steps++) {
+        const event = anyEvent(await fleet.state(), random)
+        const isTaken = await fleet.report(event).then(
+          () => true,
+          () => false,
+        )
+        if (!isTaken) continue
+        const [state, events] = [await fleet.state(), withoutCorrected(await fleet.events())]
+        const trace = await fleet.text(`/v1/days/${fleet.day}/trace.csv`)
+        if (taken++ % 8 === 0) older = trace
+        const why = JSON.stringify(event)
+        // A trace that is some events old, and none; a correction is followed by a new one.
+        if (event.type === 'corrected') older = trace
+        for (const known of [trace, older, trace.split('\n', 1).join()])
+          expect(pictured(shown({ scenario, state, events, trace: known }), state), why).toEqual(
+            stated(state),
+          )
+        expect(flights(shown({ scenario, state, events, trace }).legs), why).toEqual(
+          flights(recordOf(scenario, trace).legs),
+        )
+        const reports = new Reports(scenario)
+        for (const one of events) reports.take(one)
+        expect(closedNow(reports, state), why).toEqual(
+          state.vertiports
+            .flatMap(({ id, closed }) => closed.map(({ to, until }) => `${id} ${to} ${until ?? ''}`))
+            .sort(),
+        )
+        const outages = reports.outages.filter((one) => isInForce(one, timeOf(state.now)))
+        const outOf = outages.map(({ aircraft, until }) => [
+          aircraft,
+          until === undefined ? null : clock(until),
+        ])
+        const expected = state.aircraft.flatMap(({ out_of_service, out_until }, at) =>
+          out_of_service ? [[at, out_until ?? null]] : [],
+        )
+        expect(outOf.sort(), why).toEqual(expected.sort())
+      }
+      expect(taken).toBeGreaterThan(40)
     }
-  }
-})
+  })
 
 /** The routes that are closed at the state's time, as the console folds the events. */
 function closedNow(reports: Reports, { now, vertiports }: DayState): string[] {
@@ -180,9 +211,9 @@ for (const network of networks) {
       await open(page, program, fleet)
       await expect(page.getByText('computing plan')).toBeVisible()
       const random = randomFrom(11)
-      for (let steps = 0; steps < 90; steps++) {
+      for (let steps = 0; steps < 75; steps++) {
         await step(fleet, random)
-        if (steps > 30 && steps % 6 === 0) await expectListAsInState(page, fleet)
+        if (steps % 5 === 0) await expectListAsInState(page, fleet)
       }
       if (how === 'refused') await expect(page.getByText('computing plan')).toBeVisible()
     })
@@ -193,4 +224,20 @@ test('the plan replaces the notice once it is there', async ({ page, program, fl
   await open(page, program, fleet)
   await expect(page.locator('.figures')).toContainText('with prices')
   await expect(page.getByText('computing plan')).toHaveCount(0)
+})
+
+test('a correction is shown although the service is busy at first', async ({ page, program, fleet }) => {
+  await fleet.decide('A01', { to: 'East' })
+  await page.setViewportSize({ width: 1700, height: 1000 })
+  await open(page, program, fleet)
+  await expectListAsInState(page, fleet)
+  let refused = 0
+  await page.route(/\/state$/, (route) =>
+    refused++ < 3
+      ? route.fulfill({ status: 503, json: { status: 503, title: 'busy', code: 'V000' } })
+      : route.fallback(),
+  )
+  await fleet.report({ type: 'corrected', event: 1 })
+  await expectListAsInState(page, fleet)
+  expect(refused).toBeGreaterThan(3)
 })

@@ -6,9 +6,16 @@ import type { AircraftState, DayState } from '../api/types'
 import { grouped } from './arrays'
 import { nominal, withTakeoff } from './nominal'
 import { isHold, type LegRecord, type Seconds } from './record'
-import { indexed, known, type ReportedDecision, type Reports } from './reports'
+import type { ReportedDecision } from './reportedDecisions'
+import { indexed, known, type Reports } from './reports'
 import type { Scenario } from './scenario'
 import { timeOf } from './time'
+
+/** A leg, and what was reported of its decision. */
+interface Decided {
+  leg: LegRecord
+  report?: ReportedDecision | undefined
+}
 
 /** The decided legs, in order of decision, each beginning where the one before it has ended. */
 export function decidedLegs(
@@ -18,104 +25,96 @@ export function decidedLegs(
   trace: readonly LegRecord[],
 ): LegRecord[] {
   const [ids, places] = [indexed(scenario.aircraft), indexed(scenario.vertiports)]
-  const valid = trace.filter((leg) => !reports.isUndone(leg.aircraft, leg.decided))
-  const legs = grouped(valid.map(reported), ({ aircraft }) => aircraft)
-  for (const one of state.aircraft) {
+  const traced = grouped([...trace], ({ aircraft }) => aircraft)
+  const all = state.aircraft.flatMap((one) => {
     const aircraft = known(ids, one.id)
-    const before = [...(legs.get(aircraft) ?? []), ...reportedSince(aircraft, legs.get(aircraft) ?? [])]
-    const now =
-      one.flight == null ? standing(one, aircraft, before) : underWay(one, one.flight, aircraft, before)
+    const decided = decidedBy(aircraft)
+    const now = one.flight == null ? standing(one, decided) : underWay(one, one.flight, aircraft, decided)
     const end = { place: known(places, one.place), at: timeOf(one.arrival) }
     const begins_at = known(places, scenario.aircraft[aircraft]?.at ?? '')
-    legs.set(aircraft, joined(now, aircraft, begins_at, end))
-  }
-  const all = [...legs.values()].flat()
+    return joined(now, aircraft, begins_at, end)
+  })
   return all.sort((one, other) => one.decided - other.decided || one.aircraft - other.aircraft)
+
+  /** The decisions of an aircraft by its events, and by the trace where that is newer. */
+  function decidedBy(aircraft: number): Decided[] {
+    const rows = grouped(traced.get(aircraft) ?? [], ({ decided }) => decided)
+    const told = reports.decisions.of(aircraft).map((report) => {
+      const row = rows.get(report.decided)?.find(({ from, to }) => from === report.from && to === report.to)
+      return { leg: reported(row ?? legOf(aircraft, report), report), report }
+    })
+    const times = new Set(told.map(({ report }) => report.decided))
+    const isUntold = (decided: Seconds) =>
+      !times.has(decided) && !reports.decisions.isUndone(aircraft, decided)
+    const untold = [...rows].flatMap(([decided, those]) => (isUntold(decided) ? those : []))
+    return [...told, ...untold.map((row) => ({ leg: reported(row) }))].sort(
+      (one, other) => one.leg.decided - other.leg.decided,
+    )
+  }
 
   /** The legs of an aircraft under way: the last is its flight. */
   function underWay(
     one: AircraftState,
     flight: NonNullable<AircraftState['flight']>,
     aircraft: number,
-    before: LegRecord[],
+    all: Decided[],
   ): LegRecord[] {
     const decided = timeOf(flight.decided)
     const times = { arrives: timeOf(one.arrival), ready: timeOf(one.ready) }
     const charge = one.lands_with_kwh == null ? {} : { lands_with_kwh: one.lands_with_kwh }
     const [from, to] = [known(places, flight.from), known(places, flight.to)]
-    const same = before.find((leg) => leg.decided === decided && !isHold(leg))
+    const same = all.findLast(({ leg }) => leg.decided === decided && leg.from === from && !isHold(leg))
+    const before = same === undefined ? all.filter(({ leg }) => leg.decided <= decided) : all
+    const past = before.slice(0, same === undefined ? undefined : all.indexOf(same))
     const now = { aircraft, from, to, decided, ...times, ...charge, passengers: flight.passengers }
-    const base = same ?? { ...now, departs: decided, profit_usd: 0, is_expected: false }
-    const whole = withTakeoff({ ...base, ...now }, flight.takeoff)
-    return [...before.filter((leg) => leg.decided < decided), awaiting(one, reported(whole))]
+    const base = same?.leg ?? { ...now, departs: decided, profit_usd: 0, is_expected: false }
+    const whole = reported(withTakeoff({ ...base, ...now }, flight.takeoff), same?.report)
+    return [...past.map(({ leg }) => leg), awaiting(one, whole, same?.report)]
   }
 
   /** The legs of an aircraft that stands: the last flight has ended. */
-  function standing(one: AircraftState, aircraft: number, before: LegRecord[]): LegRecord[] {
+  function standing(one: AircraftState, all: Decided[]): LegRecord[] {
     const [place, arrived] = [known(places, one.place), timeOf(one.arrival)]
     // A flight that was decided later was undone, or is newer than the state.
-    const isPast = (leg: LegRecord) =>
-      isHold(leg) || leg.decided < arrived || (leg.decided === arrived && leg.to === place)
-    const legs = before.filter(isPast)
-    const latest = legs.findLast((leg) => !isHold(leg))
-    if (latest === undefined) return legs
-    const landed = reports.decision(aircraft, latest.decided)?.landed
-    const isIts = landed === undefined ? latest.to === place : landed === arrived
-    if (!isIts) return legs
-    const ready = one.out_of_service ? {} : { ready: timeOf(one.ready) }
-    const isLast = legs.at(-1) === latest
-    const now = {
-      ...latest,
-      to: place === latest.from ? latest.to : place,
-      arrives: arrived,
-      ...(isLast ? ready : {}),
+    const isPast = ({ leg, report }: Decided) => {
+      if (report !== undefined) return report.seq <= state.seq
+      return isHold(leg) || leg.decided < arrived || (leg.decided === arrived && leg.to === place)
     }
-    return legs.map((leg) => (leg === latest ? now : leg))
+    const past = all.filter(isPast)
+    const legs = past.map(({ leg }) => leg)
+    const latest = past.findLast(({ leg }) => !isHold(leg))
+    const landed = latest?.report?.landed
+    const isIts =
+      landed === undefined ? latest?.leg.to === place : landed.time === arrived && landed.at === place
+    if (latest === undefined || !isIts) return legs
+    const ready = one.out_of_service ? {} : { ready: timeOf(one.ready) }
+    const isLast = legs.at(-1) === latest.leg
+    const now = { ...latest.leg, arrives: arrived, ...(isLast ? ready : {}) }
+    return legs.map((leg) => (leg === latest.leg ? now : leg))
   }
 
-  /**
-   * Where a flight ends: a diverted one elsewhere. One that came back to its origin keeps its
-   * destination, because it would be a hold otherwise; `joined` then moves its aircraft back.
-   */
-  function landingOf({ from, to }: LegRecord, report: ReportedDecision | undefined): number {
-    const at = report?.landedAt === undefined ? to : known(places, report.landedAt)
-    return at === from ? to : at
-  }
-
-  /** Legs that were reported after those of the trace. */
-  function reportedSince(aircraft: number, traced: LegRecord[]): LegRecord[] {
-    let from = traced.at(-1)?.to ?? known(places, scenario.aircraft[aircraft]?.at ?? '')
-    const since = reports.decisionsAfter(aircraft, traced.at(-1)?.decided ?? -Infinity)
-    return since.map(([decided, { to: destination, landed, landedAt }]) => {
-      const to = destination === undefined ? from : known(places, destination)
-      const leg = {
-        aircraft,
-        from,
-        to,
-        decided,
-        departs: decided,
-        passengers: 0,
-        profit_usd: 0,
-        is_expected: false,
-      }
-      const { flight_s, ground_s } = nominal(scenario, leg)
-      const isFlight = from !== to
-      const arrives = isFlight ? (landed ?? decided + flight_s) : decided
-      const ready = isFlight ? arrives + ground_s : decided + scenario.operations.hold_s
-      from = landedAt === undefined ? to : known(places, landedAt)
-      return reported({ ...leg, arrives, ready })
-    })
+  /** A decision that the trace does not have yet, as a leg. */
+  function legOf(aircraft: number, { from, to, decided, landed }: ReportedDecision): LegRecord {
+    const leg = { aircraft, from, to, decided, departs: decided }
+    const { flight_s, ground_s } = nominal(scenario, leg)
+    const isFlight = from !== to
+    const arrives = isFlight ? (landed?.time ?? decided + flight_s) : decided
+    const ready = isFlight ? arrives + ground_s : decided + scenario.operations.hold_s
+    return { ...leg, arrives, ready, passengers: 0, profit_usd: 0, is_expected: false }
   }
 
   /**
    * The leg of an aircraft under way, with the report that it awaits. Reports may be newer than the
    * state.
    */
-  function awaiting({ phase }: AircraftState, leg: LegRecord): LegRecord {
-    const report = reports.decision(leg.aircraft, leg.decided)
+  function awaiting(
+    { phase }: AircraftState,
+    leg: LegRecord,
+    report: ReportedDecision | undefined,
+  ): LegRecord {
     if (report?.landed !== undefined) {
-      const ready = report.landed + leg.ready - leg.arrives
-      return { ...leg, arrives: report.landed, ready }
+      const ready = report.landed.time + leg.ready - leg.arrives
+      return { ...leg, arrives: report.landed.time, ready }
     }
     const hasDeparted = phase === 'in_the_air' || report?.hasDeparted === true
     return {
@@ -126,17 +125,22 @@ export function decidedLegs(
     }
   }
 
-  /** A leg with its reported departure, who decided it, and the plan if it went differently. */
-  function reported(plan: LegRecord): LegRecord {
-    const report = reports.decision(plan.aircraft, plan.decided)
-    const leg = { ...plan, to: landingOf(plan, report) }
+  /**
+   * A leg with its reported departure, who decided it, and the plan if it went differently. A
+   * diverted flight ends elsewhere. One that came back to its origin keeps its destination, because
+   * it would be a hold otherwise; `joined` then moves its aircraft back.
+   */
+  function reported(plan: LegRecord, report?: ReportedDecision): LegRecord {
+    const landedAt = report?.landed?.at ?? plan.to
+    const leg = { ...plan, to: landedAt === plan.from ? plan.to : landedAt }
     const policy = report?.policy === undefined ? {} : { policy: report.policy }
     if (isHold(leg)) return { ...leg, ...policy }
     const charged = leg.charged ?? leg.decided
     const departs = report?.departs ?? charged
     const { flight_s, energy_kwh } = nominal(scenario, leg)
     const arrives = charged + flight_s
-    const charge = report?.lands_with_kwh === undefined ? {} : { lands_with_kwh: report.lands_with_kwh }
+    const charge_kwh = report?.landed?.charge_kwh
+    const charge = charge_kwh === undefined ? {} : { lands_with_kwh: charge_kwh }
     const rest = { ...leg }
     delete rest.planned
     const known = { energy_kwh, ...rest, ...policy, ...charge, departs }

@@ -107,8 +107,13 @@ export class Fleet {
     for (let one = 0; one < frame.size; one++) this.#showAircraft(one, time, frame)
     for (const outage of this.record.outages) {
       const isOut = time >= outage.since && time < (outage.until ?? Infinity)
-      if (isOut && at(frame.stands, outage.aircraft) !== NONE) frame.phases[outage.aircraft] = Phase.out
+      if (isOut && this.#isDocked(frame, outage.aircraft)) frame.phases[outage.aircraft] = Phase.out
     }
+  }
+
+  /** Whether an aircraft stands and keeps its stand: one that was sent off has another promised. */
+  #isDocked({ phases, stands }: FleetFrame, aircraft: number): boolean {
+    return at(stands, aircraft) !== NONE && at(phases, aircraft) !== Phase.delayed
   }
 
   #showAircraft(one: number, time: Seconds, frame: FleetFrame): void {

@@ -5,21 +5,8 @@ import type { Event, RouteNames, TakenEvent } from '../api/types'
 import { Closures, isInForce, type Routes } from './closures'
 import type { ClosureRecord, OutageRecord, RouteRecord, Seconds } from './record'
 import type { Scenario, ScenarioClosure } from './scenario'
+import { ReportedDecisions } from './reportedDecisions'
 import { timeOf } from './time'
-
-/** Facts about a decision that the service's outlook does not contain. */
-export interface ReportedDecision {
-  /** The destination of the decision, or of a departure that followed none. */
-  to?: string
-  departs?: Seconds
-  hasDeparted: boolean
-  landed?: Seconds
-  /** Where it landed, if the report names the vertiport. */
-  landedAt?: string
-  /** The charge that the aircraft landed with, if it was reported. */
-  lands_with_kwh?: number
-  policy?: string
-}
 
 /** The reports about the passengers of a pair in a period. */
 export interface DemandReport extends RouteRecord {
@@ -42,31 +29,17 @@ export class Reports {
   readonly #closures: Closures
   readonly #aircraft: Map<string, number>
   readonly #vertiports: Map<string, number>
-  /** By aircraft and time of the decision, in order. */
-  readonly #decisions = new Map<number, Map<Seconds, ReportedDecision>>()
-  /** Decisions that no longer hold, which an older trace may contain. */
-  readonly #undone = new Set<string>()
-  /** When the latest decision of each aircraft was taken. */
-  readonly #latest = new Map<number, Seconds>()
+  readonly decisions: ReportedDecisions
 
   constructor(scenario: Scenario) {
     this.#aircraft = indexed(scenario.aircraft)
     this.#vertiports = indexed(scenario.vertiports)
     this.periods = scenario.periods.map(timeOf)
     this.#now = timeOf(scenario.operations.start)
-    const known = closuresOf(scenario, (one) => one.known === true)
-    this.#closures = new Closures(scenario.vertiports.length, known)
-  }
-
-  /** The known facts about the decision of an aircraft at a time. */
-  decision(aircraft: number, decided: Seconds): ReportedDecision | undefined {
-    return this.#decisions.get(aircraft)?.get(decided)
-  }
-
-  /** The decisions of an aircraft after a time that were not undone. */
-  decisionsAfter(aircraft: number, time: Seconds): [decided: Seconds, ReportedDecision][] {
-    const all = [...(this.#decisions.get(aircraft) ?? [])]
-    return all.slice(all.findLastIndex(([decided]) => decided <= time) + 1)
+    const announced = closuresOf(scenario, (one) => one.known === true)
+    this.#closures = new Closures(scenario.vertiports.length, announced)
+    const places = scenario.aircraft.map(({ at }) => this.#vertiport(at))
+    this.decisions = new ReportedDecisions(places, (id) => this.#vertiport(id))
   }
 
   /** The closures so far, past ones and those known in advance among them. */
@@ -76,90 +49,30 @@ export class Reports {
 
   take({ seq, event }: TakenEvent): void {
     this.seq = seq
-    if (event.type === 'corrected' || event.type === 'acknowledged') return
+    if (event.type === 'corrected') return
     const at = timeOf(event.time ?? 0)
-    this.#now = Math.max(this.#now, at)
-    if ('aircraft' in event) this.#takeOfAircraft(event, this.#aircraftAt(event.aircraft), at)
-    else if (event.type === 'closed') {
+    const now = Math.max(this.#now, at)
+    this.#now = now
+    if ('aircraft' in event) {
+      const aircraft = known(this.#aircraft, event.aircraft)
+      this.decisions.take(aircraft, { seq, event, at, now })
+      this.#takeOutage(event, aircraft, at)
+    }
+    if (event.type === 'closed') {
       const until = event.until == null ? {} : { until: timeOf(event.until) }
       const reason = event.reason == null ? {} : { reason: event.reason }
-      this.#closures.close(this.#routes(event.routes), { seq, at, ...until, ...reason }, this.#now)
-    } else if (event.type === 'reopened') this.#closures.reopen(this.#routes(event.routes), this.#now)
+      this.#closures.close(this.#routes(event.routes), { seq, at, ...until, ...reason }, now)
+    } else if (event.type === 'reopened') this.#closures.reopen(this.#routes(event.routes), now)
     else this.#takeDemand(event, at)
   }
 
-  #takeOfAircraft(event: Event & { aircraft: string }, aircraft: number, at: Seconds): void {
-    const decided = this.#latest.get(aircraft) ?? at
-    switch (event.type) {
-      case 'decided':
-        this.#latest.set(aircraft, at)
-        this.#enter(aircraft, at, {
-          to: event.to,
-          hasDeparted: false,
-          ...(event.policy == null ? {} : { policy: event.policy }),
-        })
-        break
-      case 'undone':
-        this.#undo(aircraft, decided)
-        break
-      case 'departed': {
-        // A departure without a decision, or to another vertiport, is a new decision. The service
-        // enters it at the day's clock.
-        const known = this.decision(aircraft, decided)
-        const isOther = event.to != null && event.to !== known?.to
-        const isSent = known !== undefined && !known.hasDeparted && known.landed === undefined && !isOther
-        if (!isSent && known?.hasDeparted === false) this.#undo(aircraft, decided)
-        const time = isSent ? decided : this.#now
-        const to = event.to ?? known?.to
-        const base = isSent ? known : to === undefined ? {} : { to }
-        this.#latest.set(aircraft, time)
-        this.#enter(aircraft, time, { ...base, departs: at, hasDeparted: true })
-        break
-      }
-      case 'landed': {
-        const known = this.decision(aircraft, decided)
-        // After its landing, an aircraft that is reported elsewhere has been moved.
-        if (known === undefined || known.landed !== undefined) break
-        known.landed = at
-        if (event.at != null) known.landedAt = event.at
-        if (event.charge_kwh != null) known.lands_with_kwh = event.charge_kwh
-        break
-      }
-      case 'delayed': {
-        const known = this.decision(aircraft, decided)
-        if (known?.hasDeparted === false) known.departs = timeOf(event.until)
-        break
-      }
-      case 'out_of_service':
-        this.#endOutage(aircraft, at)
-        this.outages.push({
-          aircraft,
-          since: at,
-          ...(event.until == null ? {} : { until: timeOf(event.until) }),
-          ...(event.reason == null ? {} : { reason: event.reason }),
-        })
-        break
-      case 'back_in_service':
-        this.#endOutage(aircraft, at)
-        break
-      default:
-    }
-  }
-
-  /** Whether a decision was taken back, or replaced by a departure to another vertiport. */
-  isUndone(aircraft: number, decided: Seconds): boolean {
-    return this.#undone.has(`${aircraft} ${decided}`)
-  }
-
-  #undo(aircraft: number, decided: Seconds): void {
-    this.#decisions.get(aircraft)?.delete(decided)
-    this.#undone.add(`${aircraft} ${decided}`)
-  }
-
-  #enter(aircraft: number, decided: Seconds, report: ReportedDecision): void {
-    const all = this.#decisions.get(aircraft) ?? new Map<Seconds, ReportedDecision>()
-    this.#decisions.set(aircraft, all.set(decided, report))
-    this.#undone.delete(`${aircraft} ${decided}`)
+  #takeOutage(event: Event, aircraft: number, at: Seconds): void {
+    if (event.type === 'out_of_service') {
+      this.#endOutage(aircraft, at)
+      const until = event.until == null ? {} : { until: timeOf(event.until) }
+      const reason = event.reason == null ? {} : { reason: event.reason }
+      this.outages.push({ aircraft, since: at, ...until, ...reason })
+    } else if (event.type === 'back_in_service') this.#endOutage(aircraft, at)
   }
 
   #endOutage(aircraft: number, at: Seconds): void {
@@ -208,10 +121,6 @@ export class Reports {
 
   #vertiport(id: string): number {
     return known(this.#vertiports, id)
-  }
-
-  #aircraftAt(id: string): number {
-    return known(this.#aircraft, id)
   }
 }
 

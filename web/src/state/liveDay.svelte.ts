@@ -63,6 +63,8 @@ export class LiveDay {
   outlookProblem = $state.raw<ProblemError>()
   readonly clock = new Clock()
   #scenario = $state.raw<Scenario>()
+  /** Whether events have changed what earlier ones led to, so that all are to be read again. */
+  #isOutdated = false
   /** Counts the events applied to the reports, so that derived values are computed again. */
   #reported = $state(0)
   #reports: Reports | undefined
@@ -277,6 +279,7 @@ export class LiveDay {
       this.#service.trace(this.id),
     ])
     if (this.#isClosed || this.#scenario === undefined) return
+    this.#isOutdated = false
     this.#decided = recordOf(this.#scenario, trace).legs
     this.#reports = new Reports(this.#scenario)
     this.whereabouts = new Whereabouts()
@@ -298,11 +301,8 @@ export class LiveDay {
       after,
       onEvents: (events) => {
         // A correction changes what earlier events have led to.
-        if (events.some(({ event }) => event.type === 'corrected')) {
-          this.#readAll().catch((problem: unknown) => this.#fail(problem))
-          return
-        }
-        this.#take(events)
+        this.#isOutdated ||= events.some(({ event }) => event.type === 'corrected')
+        if (!this.#isOutdated) this.#take(events)
         this.refresh()
       },
       onConnection: (connection, problem) => this.#connect(connection, problem),
@@ -310,7 +310,8 @@ export class LiveDay {
       onRewound: () => {
         // Event numbers now refer to other events.
         this.ownDecisions.forgetAfter(0)
-        this.#readAll().catch((problem: unknown) => this.#fail(problem))
+        this.#isOutdated = true
+        this.refresh()
       },
     })
   }
@@ -368,12 +369,19 @@ export class LiveDay {
 
   async #readState(): Promise<void> {
     try {
+      if (this.#isOutdated) {
+        await this.#readAll()
+        return
+      }
       this.#takeState(await this.#service.state(this.id))
       // The trace is read after the state, so it has every leg of it.
       const trace = await this.#service.trace(this.id)
       if (this.#scenario !== undefined) this.#decided = recordOf(this.#scenario, trace).legs
     } catch (problem) {
-      this.#fail(problem)
+      // A service that is busy is asked again; no event may follow for a while.
+      if (problem instanceof ProblemError && problem.status !== 0 && isPassing(problem))
+        this.#stateRefresher.request()
+      else this.#fail(problem)
     }
   }
 

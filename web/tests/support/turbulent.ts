@@ -55,6 +55,50 @@ function nextEvent(state: DayState, random: () => number): Event | undefined {
   return first === undefined ? undefined : { ...first.event, time: clock(Math.max(now, first.at)) }
 }
 
+/**
+ * A random event of any type, likely or not, with and without a time: half of them the service
+ * refuses.
+ */
+export function anyEvent(state: DayState, random: () => number): Event {
+  const now = timeOf(state.now)
+  const pick = <T>(list: readonly T[]): T => list[Math.floor(random() * list.length)] as T
+  const place = () => pick(state.vertiports).id
+  const soon = (most_s: number) => clock(now + Math.floor(random() * most_s))
+  const maybe = <T extends object>(share: number, more: T): Partial<T> => (random() < share ? more : {})
+  const late = maybe(0.3, { time: clock(Math.max(0, now + Math.floor(random() * 900 - 450))) })
+  const of = (phase: string) => {
+    const those = state.aircraft.filter((one) => one.phase === phase)
+    return pick(random() < 0.85 && those.length > 0 ? those : state.aircraft).id
+  }
+  const waiting = state.aircraft.filter((one) => one.needs_decision)
+  if (waiting.length > 0 && random() < 0.35)
+    return { type: 'decided', aircraft: pick(waiting).id, to: place() }
+  const kinds: (() => Event)[] = [
+    () => ({ type: 'departed', aircraft: of('sent_off'), ...maybe(0.4, { to: place() }), ...late }),
+    () => ({ type: 'departed', aircraft: of('sent_off'), ...late }),
+    () => ({ type: 'landed', aircraft: of('in_the_air'), ...maybe(0.3, { at: place() }), ...late }),
+    () => ({ type: 'landed', aircraft: of('in_the_air'), ...late }),
+    () => ({ type: 'landed', aircraft: of('standing'), at: place() }),
+    () => ({ type: 'undone', aircraft: of('sent_off') }),
+    () => ({ type: 'delayed', aircraft: of('sent_off'), until: soon(1_800), ...late }),
+    () => ({ type: 'charging', aircraft: of('standing'), ready: soon(1_800), ...late }),
+    () => ({ type: 'ready', aircraft: of('standing'), ...late }),
+    () => ({
+      type: 'out_of_service',
+      aircraft: of('sent_off'),
+      ...maybe(0.6, { until: soon(3_600) }),
+      ...late,
+    }),
+    () => ({ type: 'back_in_service', aircraft: of('standing'), ...late }),
+    () => ({ ...closureOf(state, random), ...late }),
+    () => ({ type: 'stands', vertiport: place(), stands: Math.floor(6 * random()), ...late }),
+    () => ({ type: 'acknowledged', alert: 'an alert', ...maybe(0.5, { time: soon(1_200) }) }),
+    () => ({ type: 'corrected', event: 1 + Math.floor(random() * state.seq) }),
+    () => ({ type: 'clock', time: soon(900) }),
+  ]
+  return pick(kinds)()
+}
+
 /** A random report about the routes of a vertiport, or about one of them. */
 export function closureOf(state: DayState, random: () => number): Event {
   const pick = () => state.vertiports[Math.floor(random() * state.vertiports.length)]?.id ?? ''
