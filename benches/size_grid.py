@@ -63,28 +63,18 @@ def grid(network: str, case: tuple, days: int, folder: Path) -> tuple[list[tuple
     by_demand = sorted(overview["vertiports"], key=lambda one: -one["departing"])
     half = len(by_demand) // 2
     costs = [f"tariffs.aircraft_cost_usd_per_day={aircraft_usd}", f"tariffs.stand_cost_usd_per_day={stand_usd}"]
-    grids = fleets_of(types, fleets)
+    varied = [f"fleet.{kind}.count={steps(fleets)}" for kind in types]
     found = []
     for large, small in itertools.product(stands, stands):
         numbers = [(one["id"], large if at < half else small) for at, one in enumerate(by_demand)]
         settings = costs + [f"vertiports.{place}.stands={number}" for place, number in numbers]
         room = sum(number for _, number in numbers)
-        for cell in itertools.chain.from_iterable(cells(network, settings + varied, days, 1, folder) for varied in grids):
+        for cell in cells(network, settings + varied, days, 1, folder):
             counts = cell["settings"][-len(types):]
             if cell["left_out"] is None and sum(counts) < room:
                 fleet = [f"fleet.{kind}.count={count}" for kind, count in zip(types, counts)]
                 found.append((cell["results"][0]["profit_usd"]["mean"], settings + fleet))
     return sorted(found, key=lambda one: -one[0]), len(found)
-
-
-def fleets_of(types: list[str], fleets: range) -> list[list[str]]:
-    """What varies in the sweeps over all fleets with an aircraft; a sweep refuses a fleet without any."""
-    first, *others = types
-    if 0 not in fleets:
-        return [[f"fleet.{kind}.count={steps(fleets)}" for kind in types]]
-    some = [f"fleet.{first}.count={steps(fleets[1:])}"] + [f"fleet.{kind}.count={steps(fleets)}" for kind in others]
-    none = [[f"fleet.{first}.count=0", *rest] for rest in fleets_of(others, fleets)] if others else []
-    return [*none, some]
 
 
 def cells(network: str, settings: list[str], days: int, seed: int, folder: Path) -> list[dict]:

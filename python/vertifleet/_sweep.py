@@ -55,7 +55,7 @@ class Sweep:
 
     @property
     def left_out(self) -> tuple[tuple[dict[str, Any], str], ...]:
-        """The variations whose fleet has no place: what was changed, and the reason in words."""
+        """The variations whose fleet has no aircraft or no place: what was changed, and the reason in words."""
         return tuple((changes, found) for changes, found in self.cells if isinstance(found, str))
 
     @property
@@ -112,7 +112,7 @@ class Sweep:
         head = f"network {self.network}, {points}, each on {days}, seed {summary['seed']}"
         notes = ["means a day; ± is the 95 % interval of the mean"]
         if self.left_out:
-            notes.append(f"{len(self.left_out)} left out, whose fleet has no place")
+            notes.append(f"{len(self.left_out)} left out, whose fleet has no aircraft or no place")
         return "\n".join([head, "", *_table([_shown(row) for row in self._rows()]), *notes])
 
     def _repr_html_(self) -> str:

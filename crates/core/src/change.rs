@@ -140,7 +140,7 @@ mod tests {
         let one = with(&json!({"fleet.midnight.count": 0})).expect("a fleet of one type");
         assert_eq!(one.fleet_size(), 16);
         let none = with(&json!({"fleet.*.count": 0})).expect_err("no aircraft");
-        assert!(none.to_string().contains("fleet, counted by aircraft"), "{none}");
+        assert!(none.to_string().contains("the fleet has no aircraft"), "{none}");
     }
 
     #[test]

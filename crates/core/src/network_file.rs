@@ -302,7 +302,9 @@ fn fleet(
         kinds.extend(std::iter::repeat_n(TypeIx::new(kind), count.into()));
         counted(kinds.len().max(1))?;
     }
-    counted(kinds.len())?;
+    if kinds.is_empty() {
+        return Err(FormatError::NoAircraft);
+    }
     let stands = vertiports.iter().enumerate().flat_map(|(at, vertiport)| {
         std::iter::repeat_n(VertiportIx::new(at), vertiport.stands.into())
     });

@@ -98,7 +98,7 @@ fn cells(report: &SweepReport) -> Section {
     let left_out = report.cells.len() - cells.len();
     if left_out > 0 {
         let cells = counted(left_out, "cell is", "cells are");
-        let why = "left out, because the fleet has no place; cells.csv lists them";
+        let why = "left out, because the fleet has no aircraft or no place; cells.csv lists them";
         section = section.with_note(format!("{cells} {why}"));
     }
     section

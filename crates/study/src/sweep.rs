@@ -78,8 +78,8 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Makes the networks of all cells. A cell whose fleet has no place is left out; any other
-    /// change that the format refuses is an error.
+    /// Makes the networks of all cells. A cell whose fleet has no aircraft, or no place, is left
+    /// out; any other change that the format refuses is an error.
     ///
     /// # Errors
     /// Returns an error if a factor leads nowhere or has a value that the format refuses, if there

@@ -53,7 +53,7 @@ impl FormatError {
             Self::NotParsed { .. } => 105,
             Self::WrongMember { .. } => 106,
             Self::UnknownFormat { .. } | Self::NoFormat { .. } => 107,
-            Self::EntryCount { .. } => 108,
+            Self::EntryCount { .. } | Self::NoAircraft => 108,
             Self::WrongShape { .. } => 109,
             Self::DuplicateId { .. } => 110,
             Self::UnknownId { .. } => 111,

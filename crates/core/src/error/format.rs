@@ -104,6 +104,10 @@ pub enum FormatError {
         found: usize,
     },
 
+    /// The fleet has no aircraft. Fix: count one at least.
+    #[error("the fleet has no aircraft: a network has one at least")]
+    NoAircraft,
+
     /// V109 wrong shape. A table does not have one row and one column for each vertiport, or a list
     /// does not have one entry for each demand period.
     ///
@@ -335,6 +339,12 @@ impl FormatError {
     /// The error of the file, or other source of the text, that `origin` names.
     pub fn in_file(self, origin: &str) -> Error {
         Error::InFile { origin: origin.to_owned(), error: self }
+    }
+
+    /// Whether only the size of the fleet is refused: it has no aircraft, or more than there are
+    /// stands.
+    pub fn is_fleet_size(&self) -> bool {
+        matches!(self, Self::NoAircraft | Self::FleetTooLarge { .. })
     }
 }
 

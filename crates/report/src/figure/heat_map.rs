@@ -60,7 +60,7 @@ pub(super) fn figure(report: &SweepReport) -> Option<Figure> {
     Some(Figure {
         slug: "figure-heat-map".into(),
         caption: "The two settings that matter most. Darker is more; the frame marks the best pair. Where other settings were varied \
-                  too, cells are means over them. An empty cell had no place for its fleet."
+                  too, cells are means over them. An empty cell had no fleet, or no place for it."
             .to_owned(),
         svg: canvas.into_svg(),
     })

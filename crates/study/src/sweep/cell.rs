@@ -2,7 +2,7 @@
 
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use serde_json::Value;
-use vertifleet_core::{Coded, Network};
+use vertifleet_core::{Error as CoreError, Network};
 
 use super::design::{Design, Factor};
 use crate::error::Error;
@@ -17,8 +17,8 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// The cells of a design. A cell whose fleet has no place has no network; any other change that
-    /// the format refuses is an error.
+    /// The cells of a design. A cell whose fleet has no aircraft, or no place, has no network; any
+    /// other change that the format refuses is an error.
     ///
     /// # Errors
     /// Returns the errors of [`Design::cells`], those of [`Network::changed`], and [`Error::Asked`]
@@ -46,8 +46,10 @@ impl Cell {
         let paths = factors.iter().map(|factor| &factor.path);
         let network = match base.changed(paths.zip(&settings)) {
             Ok(network) => Ok(Box::new(network)),
-            // A fleet without a place is what a grid over fleets and stands has in its corner.
-            Err(error) if error.code().0 == 117 => Err(error.to_string()),
+            // A grid over fleets and stands has such fleets in its corners.
+            Err(CoreError::InFile { origin, error }) if error.is_fleet_size() => {
+                Err(format!("{origin}: {error}"))
+            }
             Err(error) => return Err(Error::from(error)),
         };
         Ok(Self { settings, network })
@@ -104,6 +106,19 @@ mod tests {
         assert!(refused(["vertiports.V1.stands=6,7", "vertiports.*.stands=6,7"]).is_some());
         assert_eq!(refused(["vertiports.*.stands=6,7", "vertiports.V1.stands=6,7"]), None);
         assert_eq!(refused(["market.elasticity=0,1", "market.demand_factor=1,2"]), None);
+    }
+
+    #[test]
+    fn a_fleet_without_aircraft_or_without_a_place_is_left_out() {
+        let york = Network::shipped("new-york").expect("a shipped network");
+        let fleets = ["fleet.midnight.count=0,16,400", "fleet.joby-s4.count=0,8"];
+        let factors = fleets.map(|text| Factor::parse(text).expect("a factor"));
+        let cells = Cell::all(&york, &factors, Design::Grid).expect("some fleets have a place");
+        let sizes = cells.iter().map(|cell| cell.network.as_ref().map(|one| one.fleet_size()));
+        let sizes: Vec<Option<usize>> = sizes.map(Result::ok).collect();
+        assert_eq!(sizes, [None, Some(8), Some(16), Some(24), None, None]);
+        let none = cells[0].network.as_ref().expect_err("no aircraft");
+        assert!(none.contains("the fleet has no aircraft"), "{none}");
     }
 
     #[test]
