@@ -113,6 +113,12 @@ impl Date {
         (era * 400 + year + i64::from(month <= 2), month, day)
     }
 
+    /// The date with day and month exchanged, if there is one.
+    pub(crate) fn exchanged(self) -> Option<Self> {
+        let (year, month, day) = self.parts();
+        Self::new(i32::try_from(year).ok()?, u32::try_from(day).ok()?, u32::try_from(month).ok()?)
+    }
+
     /// Reads `YYYY-MM-DD`.
     fn read(text: &[u8]) -> Option<Self> {
         let [y1, y2, y3, y4, b'-', m1, m2, b'-', d1, d2] = *text else { return None };

@@ -15,9 +15,11 @@ use crate::{Error, Warning};
 /// A date with fewer records than this share of the usual number is an error of a clock rather than
 /// a day.
 const STRAY_SHARE: f64 = 0.05;
-/// Days without records that separate groups of dates.
-const GAP_DAYS: i32 = 7;
-/// A gap after which dates are of another year, however many records they have.
+/// Gaps of this many usual gaps between dates separate groups of dates.
+const SEPARATING_GAPS: i32 = 7;
+/// Gaps of this many usual ones separate few dates from the others whatever records they have.
+const FAR_GAPS: i32 = 28;
+/// A gap after which dates are of another year, however many there are.
 const YEAR_DAYS: i32 = 365;
 /// A group of dates with fewer records a day than this share of the usual number is small.
 const FEW_SHARE: f64 = 0.2;
@@ -150,8 +152,8 @@ fn no_degrees(signs: &Signs) -> Option<String> {
     })
 }
 
-/// Dates with hardly any records, and dates far from most others, which count as days and lower
-/// the mean of all.
+/// Dates with hardly any records, and dates far from most others, which count as days in the mean
+/// of all.
 fn stray_dates(dates: &BTreeMap<Date, u64>) -> Option<String> {
     const SHOWN: usize = 5;
     let mut counts: Vec<u64> = dates.values().copied().collect();
@@ -172,7 +174,8 @@ fn stray_dates(dates: &BTreeMap<Date, u64>) -> Option<String> {
     let more = if stray.len() > SHOWN { ", ..." } else { "" };
     (!stray.is_empty()).then(|| {
         format!(
-            "{} of the {} days have hardly any records or are far from the others, and each lowers the mean: {}{more}; \
+            "{} of the {} days have hardly any records or are far from the others, and each counts as a day in the mean: \
+             {}{more}; \
              --first-date and --last-date leave them out",
             stray.len(),
             dates.len(),
@@ -181,22 +184,33 @@ fn stray_dates(dates: &BTreeMap<Date, u64>) -> Option<String> {
     })
 }
 
-/// The dates that a gap separates from the group of dates with the most records: a gap of a year,
-/// or of a week to dates with few records each.
+/// The dates that a gap separates from the largest group of dates: a gap of a year, or
+/// one that is long beside the usual gap, to dates that are few or have few records each.
 fn far_dates(dates: &BTreeMap<Date, u64>, usual: f64) -> BTreeSet<Date> {
     let all: Vec<(Date, u64)> = dates.iter().map(|(date, records)| (*date, *records)).collect();
-    let groups: Vec<&[(Date, u64)]> =
-        all.chunk_by(|one, next| one.0.days_until(next.0) < GAP_DAYS).collect();
-    let records = |group: &[(Date, u64)]| group.iter().map(|(_, records)| records).sum::<u64>();
-    let Some(most) = (0..groups.len()).rev().max_by_key(|&at| records(groups[at])) else {
+    let mut gaps: Vec<i32> = all.windows(2).map(|two| two[0].0.days_until(two[1].0)).collect();
+    gaps.sort_unstable();
+    // The lower of two middle ones, as half of the dates of a small sample may be far.
+    let Some(&usual_gap) = gaps.get(gaps.len().saturating_sub(1) / 2) else {
         return BTreeSet::new();
     };
-    let (main_first, main_last) = ends(groups[most]);
+    let separating = (SEPARATING_GAPS * usual_gap).min(YEAR_DAYS);
+    let groups: Vec<&[(Date, u64)]> =
+        all.chunk_by(|one, next| one.0.days_until(next.0) < separating).collect();
+    let records = |group: &[(Date, u64)]| group.iter().map(|(_, records)| records).sum::<u64>();
+    let Some(main) = groups.iter().copied().rev().max_by_key(|group| (group.len(), records(group)))
+    else {
+        return BTreeSet::new();
+    };
+    let (main_first, main_last) = ends(main);
     let is_far = |group: &&[(Date, u64)]| {
         let (first, last) = ends(group);
         let apart = main_last.days_until(first).max(last.days_until(main_first));
-        let few = (records(group) as f64) < FEW_SHARE * usual * group.len() as f64;
-        apart >= YEAR_DAYS || apart >= GAP_DAYS && few
+        let few_records = (records(group) as f64) < FEW_SHARE * usual * group.len() as f64;
+        let few_dates = group.len() * 2 < main.len();
+        apart >= YEAR_DAYS
+            || apart >= separating && few_records
+            || apart >= FAR_GAPS * usual_gap && few_dates
     };
     groups.into_iter().filter(is_far).flatten().map(|(date, _)| *date).collect()
 }
@@ -206,22 +220,26 @@ fn ends(group: &[(Date, u64)]) -> (Date, Date) {
     (group[0].0, group[group.len() - 1].0)
 }
 
-/// Dates that are all on few days of many months, as where a day is read as a month and a month as
-/// a day.
+/// Dates that would be within a much shorter time if days were months and months days, as where
+/// `%m/%d` reads a file that writes the day first.
 fn exchanged_days(dates: &BTreeMap<Date, u64>) -> Option<String> {
-    /// Fewer months may be a sample of one day each.
-    const LEAST_MONTHS: usize = 6;
-    let parts: Vec<(i64, i64, i64)> = dates.keys().map(|date| date.parts()).collect();
-    let months: BTreeSet<(i64, i64)> =
-        parts.iter().map(|&(year, month, _)| (year, month)).collect();
-    let days: BTreeSet<i64> = parts.iter().map(|&(.., day)| day).collect();
-    // A file of some weeks has more days of the month than months. With days and months exchanged
-    // it has one or two days in each of up to twelve months.
-    let few_days = days.len() * 3 <= months.len() && days.iter().all(|&day| day <= 12);
-    (months.len() >= LEAST_MONTHS && few_days).then(|| {
+    /// Fewer dates are near to each other by chance.
+    const LEAST_DATES: usize = 3;
+    /// The time between the first and the last date is at least this many times shorter.
+    const SHORTER: i32 = 3;
+    let other_way: Option<BTreeSet<Date>> = dates.keys().map(|date| date.exchanged()).collect();
+    let other_way = other_way.filter(|dates| dates.len() >= LEAST_DATES)?;
+    let (first, last) = (dates.keys().next()?, dates.keys().next_back()?);
+    let (other_first, other_last) = (other_way.first()?, other_way.last()?);
+    let is_shorter = other_first.days_until(*other_last) * SHORTER <= first.days_until(*last);
+    is_shorter.then(|| {
+        let parts = || dates.keys().map(|date| date.parts());
+        let months: BTreeSet<(i64, i64)> = parts().map(|(year, month, _)| (year, month)).collect();
+        let days: BTreeSet<i64> = parts().map(|(.., day)| day).collect();
         let days: Vec<String> = days.iter().map(i64::to_string).collect();
         format!(
-            "all {} dates are on day {} of {} months: days and months may be exchanged, where a file writes the day first and \
+            "all {} dates are on day {} of {} months, and would be from {other_first} to {other_last} with days and months \
+             exchanged: days and months may be exchanged, where a file writes the day first and \
              --time-format reads the month first (%d is the day, %m the month)",
             dates.len(),
             days.join(" or "),

@@ -358,7 +358,7 @@ fn stray_dates_days_without_records_and_files_given_twice_are_warned_of() {
     assert_eq!(
         of_records(&rows, |_| ()),
         [
-            "V741 the trip records: 1 of the 3 days have hardly any records or are far from the others, and each lowers the mean: \
+            "V741 the trip records: 1 of the 3 days have hardly any records or are far from the others, and each counts as a day in the mean: \
           2001-01-01 (1 of about 150, far from the other dates); --first-date and --last-date leave them out"
         ]
     );

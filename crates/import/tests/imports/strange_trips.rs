@@ -41,6 +41,8 @@ fn stray_dates_bring_a_warning_in_samples_of_any_size() {
         (60, ["2009-01-01 07:30:00", "2041-01-01 07:30:00"]),
         (60, ["2026-06-11 07:30:00", "2026-06-12 07:30:00"]),
         (60, ["2026-02-11 07:30:00", "2026-07-12 07:30:00"]),
+        // A third of the usual records.
+        (3, ["2026-03-01 07:30:00", "2026-09-12 07:30:00"]),
         // So small that no date has few records.
         (2, ["2009-01-01 07:30:00", "2041-01-01 07:30:00"]),
     ] {
@@ -56,24 +58,73 @@ fn stray_dates_bring_a_warning_in_samples_of_any_size() {
 }
 
 #[test]
+fn a_few_dates_far_from_the_others_bring_a_warning_whatever_their_records() {
+    for a_day in [1, 6, 60] {
+        for stray in [1, 2, 6, 60] {
+            let mut records = june(10, a_day);
+            for record in 0..2 * stray {
+                let _ = writeln!(records, "2026-03-{:02} 07:30:00,{TRIP}", 1 + record % 2);
+            }
+            let found = warnings(&records, |_| ());
+            assert!(found.starts_with("the trip records: 2 of the 12 days"), "{stray}: {found}");
+            assert!(found.contains("far from the other dates"), "{stray}: {found}");
+        }
+    }
+}
+
+#[test]
 fn samples_of_several_months_bring_none() {
     // The first weeks of two months, with a gap between them.
     let first = june(14, 40);
     let second = first.replace("2026-06-", "2026-07-").replacen(HEADER, "", 1);
     assert_eq!(warnings(&format!("{first}{second}"), |_| ()), "");
+    // A week of each season.
+    let week = june(7, 40).replacen(HEADER, "", 1);
+    let seasons = ["03", "06", "09", "12"].map(|month| week.replace("-06-", &format!("-{month}-")));
+    assert_eq!(warnings(&format!("{HEADER}{}", seasons.concat()), |_| ()), "");
+}
+
+#[test]
+fn samples_of_one_weekday_bring_none() {
+    // The Mondays of two years, every second one, and those without a month in between.
+    let mondays: Vec<i64> = (0..104).collect();
+    let second = mondays.iter().copied().step_by(2).collect();
+    let gap = mondays.iter().copied().filter(|week| !(50..55).contains(week)).collect();
+    for weeks in [mondays, second, gap] {
+        let mut text = HEADER.to_owned();
+        for week in weeks {
+            let monday = jiff::civil::date(2026, 1, 5) + jiff::Span::new().weeks(week);
+            for hour in 8..20 {
+                let _ = writeln!(text, "{monday} {hour:02}:30:00,{TRIP}");
+            }
+        }
+        assert_eq!(warnings(&text, |_| ()), "");
+    }
 }
 
 #[test]
 fn days_and_months_that_are_exchanged_bring_a_warning() {
-    let mut text = HEADER.to_owned();
-    for day in 1..=28 {
-        let _ = writeln!(text, "{day:02}/02/2026 07:30,{TRIP}");
-    }
     let month_first = |trips: &mut Trips<'_>| trips.time_format = "%m/%d/%Y %H:%M".parse().ok();
-    let found = warnings(&text, month_first);
-    assert!(found.contains("days and months may be exchanged"), "{found}");
     let day_first = |trips: &mut Trips<'_>| trips.time_format = "%d/%m/%Y %H:%M".parse().ok();
-    assert_eq!(warnings(&text, day_first), "");
+    // Days of February: dates that are not read as months are dropped with their own warning.
+    for days in [1..=3, 1..=5, 8..=12, 1..=12, 1..=28] {
+        let mut text = HEADER.to_owned();
+        for day in days {
+            let _ = writeln!(text, "{day:02}/02/2026 07:30,{TRIP}");
+        }
+        let found = warnings(&text, month_first);
+        assert!(found.contains("days and months may be exchanged"), "{found}");
+        assert_eq!(warnings(&text, day_first), "");
+    }
+}
+
+#[test]
+fn a_day_of_each_month_is_no_exchange() {
+    let mut text = HEADER.to_owned();
+    for (month, day) in [(1, 5), (2, 2), (3, 2), (4, 6), (5, 4), (6, 1), (7, 6), (8, 3)] {
+        let _ = writeln!(text, "2026-{month:02}-{day:02} 07:30:00,{TRIP}");
+    }
+    assert_eq!(warnings(&text, |_| ()), "");
 }
 
 #[test]
