@@ -41,3 +41,4 @@ def test_an_example_runs(page: str, number: int, code: str, tmp_path: Path) -> N
     command = [sys.executable, file.name]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+    assert "nan" not in done.stdout.lower().split(), "an example shows a number"
