@@ -38,7 +38,7 @@ lint: prepare tools console-ready
 	cargo build $(CHECKED) --example checked_native
 	@scripts/python checked
 	cd python && $(DEV)/ruff format --check . && $(DEV)/ruff check . && $(DEV)/mypy
-	cd docs && $(DEV)/stubtest vertifleet._native
+	cd docs && $(DEV)/stubtest vertifleet._native --mypy-config-file ../python/stubtest.ini
 	$(DEV)/typos
 	scripts/prose
 	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
