@@ -324,10 +324,12 @@ def test_the_days_of_a_comparison_network_are_comparison_days_whatever_their_spl
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert FleetEnv("random-training:7").reset(seed=1)[1]["split"] == "training"
-        assert FleetEnv("random-validation:7").reset(seed=1)[1]["split"] == "validation"
+        assert FleetEnv("random-validation:7", split="validation").reset(seed=1)[1]["split"] == "validation"
         assert FleetEnv("random-places-training:8:7").reset(seed=1)[1]["split"] == "training"
-        batch = FleetVectorEnv(2, ["random-training:1", "random-validation:2"], observation="full")
-        assert set(batch.reset(seed=1)[1]["split"]) <= {"training", "validation"}
+        batch = FleetVectorEnv(2, ["random-training:1", "random-training:2"], observation="full")
+        assert set(batch.reset(seed=1)[1]["split"]) == {"training"}
+    with pytest.warns(UserWarning, match="validation network"):
+        assert FleetEnv("random-validation:7").reset(seed=1)[1]["split"] == "validation"
     names = ["random:7", "random-places:8:7", "random-validation:7", "random-training:7", "paper"]
     splits = ["comparison", "comparison", "validation", "training", None]
     assert [vertifleet.Network(name).split for name in names] == splits

@@ -55,7 +55,7 @@ class Sweep:
 
     @property
     def left_out(self) -> tuple[tuple[dict[str, Any], str], ...]:
-        """The variations whose fleet has no aircraft or no place: what was changed, and the reason in words."""
+        """The variations whose fleet has no aircraft or no place: what was changed, and the reason."""
         return tuple((changes, found) for changes, found in self.cells if isinstance(found, str))
 
     @property

@@ -26,9 +26,9 @@ def warn_of_comparison(split: str | None) -> None:
 
 
 def warn_of_network(network: Network, split: Split) -> None:
-    """Warns once, if a network that policies are compared by is the source of days for something else."""
-    if network.split == "comparison" and split != "comparison":
-        _warn_once_of_networks()
+    """Warns once, if a network that was drawn for one purpose is the source of days for another."""
+    if network.split is not None and network.split != split:
+        _warn_once_of_networks(network.split, split)
 
 
 @functools.cache
@@ -41,10 +41,12 @@ def _warn_once() -> None:
 
 
 @functools.cache
-def _warn_once_of_networks() -> None:
+def _warn_once_of_networks(drawn_for: Split, split: Split) -> None:
+    stricter = max(drawn_for, split, key=["training", "validation", "comparison"].index)
     warnings.warn(
-        "this is a comparison network, by which policies are judged, so all its days are comparison days: "
-        'learn from "random" or "random-training:7", and choose settings by "random-validation:7"',
+        f"this is a {drawn_for} network, and its {split} days are asked for: treat them as {stricter} days. "
+        'Learn from "random" or "random-training:7", choose settings by "random-validation:7", '
+        'and compare policies by "random:7"',
         stacklevel=5,
     )
 
