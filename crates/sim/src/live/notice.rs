@@ -113,7 +113,7 @@ pub enum Notice {
     },
     /// An aircraft is ready sooner than it can be.
     #[error(
-        "aircraft {aircraft:?} cannot be ready at {ready}: it landed at {landed}, and charges for {charge_s} s"
+        "aircraft {aircraft:?} cannot be ready at {ready}: it landed at {landed}, and {work} takes {takes_s} s"
     )]
     ReadyTooSoon {
         /// The aircraft.
@@ -122,8 +122,10 @@ pub enum Notice {
         ready: Time,
         /// Its latest landing.
         landed: Time,
-        /// The duration of charging, seconds.
-        charge_s: u32,
+        /// The longer of its turnaround and of charging.
+        work: &'static str,
+        /// The duration of that, seconds.
+        takes_s: u32,
     },
     /// An aircraft landed somewhere else.
     #[error("aircraft {aircraft:?} landed at {at:?} instead of {to:?}")]

@@ -89,9 +89,7 @@ impl LiveDay {
             }
             Report::Landed { aircraft, at, charge_kwh } => {
                 self.check_charge(aircraft, charge_kwh)?;
-                let too_high = self.charged_too_high(aircraft, time, charge_kwh);
-                self.land(aircraft, time, at, &mut notices)?;
-                notices.extend(too_high);
+                self.land(aircraft, time, (at, charge_kwh), &mut notices)?;
                 self.correct_charge(aircraft, charge_kwh);
             }
             Report::Charging { aircraft, ready } => {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use vertifleet_core::{AircraftIx, Charging, Scenario, Time, VertiportIx};
+use vertifleet_sim::TraceRow;
 use vertifleet_sim::live::{LiveDay, Report};
 use vertifleet_testkit::paper_day;
 
@@ -149,4 +150,117 @@ fn an_aircraft_that_is_ready_before_it_can_be_charged_is_noticed() {
     assert!(early.contains(&"departed_before_landing"), "{early:?}");
     assert!(!early.contains(&"departed_unready"), "{early:?}");
     assert!(codes(&mut live, lands + 60, &back).contains(&"departed_unready"));
+}
+
+/// Sends A01 away while it has too little charge, and returns the decided flight.
+fn decided(live: &mut LiveDay) -> TraceRow {
+    let start = live.now();
+    let decision = live.decision(A01, start).expect("it is ready");
+    let mut room = None;
+    let mask = live.view_at(&decision, &mut room).feasible(&decision);
+    let to = mask.iter().find(|&to| to != decision.at).expect("a flight after charging");
+    assert!(codes(live, start, &Report::Decided { aircraft: A01, to }).is_empty());
+    *live.flight(A01).expect("it was sent off")
+}
+
+#[test]
+fn a_landing_before_the_battery_sufficed_is_noticed_if_no_departure_was_reported() {
+    let mut live = LiveDay::new(as_needed(1.0));
+    let start = live.now();
+    let row = decided(&mut live);
+    let flight_s = row.arrival.since(row.takeoff);
+    assert!(row.takeoff.since(start) > flight_s / 4 + 120, "it has to charge first");
+    for (lands, expected) in [
+        (start + 60, vec!["too_fast"]),
+        (start + flight_s, vec!["without_energy"]),
+        (row.arrival, vec![]),
+        (row.arrival + 900, vec![]),
+    ] {
+        assert_eq!(codes(&mut live.clone(), lands, &landed(None)), expected, "{lands}");
+    }
+    // On days that charge to full, the battery is full at the decision.
+    let mut live = LiveDay::new(paper_day(1));
+    let row = decided(&mut live);
+    assert!(codes(&mut live, row.arrival, &landed(None)).is_empty());
+}
+
+#[test]
+fn a_landing_elsewhere_without_a_departure_needs_the_energy_of_the_flight_there() {
+    let mut live = LiveDay::new(as_needed(1.0));
+    let start = live.now();
+    let row = decided(&mut live);
+    let (farther, flight_s, energy_kwh) = farthest(&mut live);
+    assert!(energy_kwh > row.energy_kwh && farther != row.to);
+    let at = |at, charge_kwh| Report::Landed { aircraft: A01, at: Some(at), charge_kwh };
+    let codes = |lands, report| {
+        let mut codes = codes(&mut live.clone(), lands, &report);
+        codes.retain(|code| *code != "more_than_stands");
+        codes
+    };
+    assert_eq!(codes(start + flight_s, at(farther, None)), ["diverted", "without_energy"]);
+    assert_eq!(codes(start + 7_200 + flight_s, at(farther, None)), ["diverted"]);
+    // It may have charged until its landing permits no later take-off, or not have left at all.
+    assert_eq!(codes(start + 7_200, at(row.from, Some(60.0))), ["diverted"]);
+    assert_eq!(codes(start + 60, at(row.from, Some(60.0))), ["diverted", "charge_too_high"]);
+}
+
+#[test]
+fn the_charge_of_an_aircraft_that_lands_elsewhere_is_that_of_the_flight_it_made() {
+    let mut live = LiveDay::new(as_needed(100.0));
+    let start = live.now();
+    let from = live.aircraft_now(A01).place;
+    let (to, ..) = farthest(&mut live);
+    let view = live.view();
+    let leg = |at| *view.leg(view.kind(A01), from, at);
+    let others = VertiportIx::all(view.vertiports()).filter(|&at| at != from);
+    let near = others.min_by_key(|&at| leg(at).flight_s).expect("a vertiport");
+    let near_leg = leg(near);
+    assert!(near_leg.energy_kwh < 0.6 * leg(to).energy_kwh, "much closer than {to:?}");
+    live.take(start, &departed(to)).expect("it happened");
+    let landed = |at, after_s, charge_kwh| {
+        let report = Report::Landed { aircraft: A01, at: Some(at), charge_kwh: Some(charge_kwh) };
+        let mut codes = codes(&mut live.clone(), start + after_s, &report);
+        codes.retain(|code| *code != "more_than_stands");
+        codes
+    };
+    let left_kwh = 100.0 - near_leg.energy_kwh;
+    assert_eq!(landed(near, near_leg.flight_s, left_kwh), ["diverted"]);
+    assert_eq!(landed(near, near_leg.flight_s, 99.9), ["diverted", "charge_too_high"]);
+    // A flight that came back at once has taken next to nothing.
+    assert_eq!(landed(from, 300, 99.0), ["diverted"]);
+    assert_eq!(landed(from, 300, 109.0), ["diverted", "charge_too_high"]);
+}
+
+#[test]
+fn a_turnaround_that_is_too_short_is_noticed_on_days_that_charge_as_needed() {
+    let mut day = Scenario::clone(&as_needed(100.0)).into_day();
+    day.aircraft_types[0].turnaround_s = 240;
+    let day = Arc::new(day.check("a day with turnarounds").expect("a day"));
+    let mut live = LiveDay::new(day);
+    let start = live.now();
+    let (to, flight_s, _) = farthest(&mut live);
+    live.take(start, &departed(to)).expect("it happened");
+    let lands = start + flight_s;
+    live.take(lands, &landed(None)).expect("it happened");
+    let ready = |after_s: u32| {
+        let mut live = live.clone();
+        let notices = live.take(lands + after_s, &Report::Ready { aircraft: A01 });
+        notices.expect("it happened").iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let [notice] = &ready(0)[..] else { panic!("{:?}", ready(0)) };
+    assert!(notice.ends_with(", and its turnaround takes 240 s"), "{notice}");
+    assert_eq!(ready(60).len(), 1);
+    assert!(ready(200).is_empty());
+}
+
+#[test]
+fn an_aircraft_that_came_back_at_once_may_be_ready_soon() {
+    let mut live = LiveDay::new(paper_day(1));
+    let start = live.now();
+    let from = live.aircraft_now(A01).place;
+    let (to, ..) = farthest(&mut live);
+    live.take(start, &departed(to)).expect("it happened");
+    let back = Report::Landed { aircraft: A01, at: Some(from), charge_kwh: None };
+    live.take(start + 180, &back).expect("it happened");
+    assert!(codes(&mut live, start + 240, &Report::Ready { aircraft: A01 }).is_empty());
 }

@@ -166,7 +166,7 @@ impl LiveDay {
         &mut self,
         aircraft: AircraftIx,
         time: Time,
-        at: Option<VertiportIx>,
+        (at, charge_kwh): (Option<VertiportIx>, Option<f64>),
         notices: &mut Vec<Notice>,
     ) -> Result<(), ReportError> {
         let state = self.state(aircraft)?;
@@ -175,6 +175,7 @@ impl LiveDay {
         }
         let expected_at = self.known.place[aircraft.at()];
         let at = at.unwrap_or(expected_at);
+        let charged_too_high = self.charged_too_high(aircraft, time, at, charge_kwh);
         match state.phase {
             Phase::Standing if at == expected_at => {
                 return Err(self.wrong_place(aircraft, "land"));
@@ -190,18 +191,7 @@ impl LiveDay {
                 self.set_prepared(aircraft, state.prepared.max(time));
             }
             Phase::SentOff { flight, .. } | Phase::InTheAir { flight, .. } => {
-                notices.extend(self.landed_too_soon(aircraft, time, at));
-                if at != expected_at {
-                    notices.push(Notice::Diverted {
-                        aircraft: self.id(aircraft),
-                        at: self.vertiport_id(at),
-                        to: self.vertiport_id(expected_at),
-                    });
-                    self.divert(aircraft, flight, at, notices);
-                }
-                if self.decisions[flight].row.arrival != time {
-                    self.set_arrival(aircraft, flight, time);
-                }
+                self.end_flight(aircraft, flight, time, at, notices);
             }
         }
         let state = &mut self.aircraft[aircraft.at()];
@@ -209,7 +199,44 @@ impl LiveDay {
         if at != expected_at {
             notices.extend(self.more_than_stands(at));
         }
+        notices.extend(charged_too_high);
         Ok(())
+    }
+
+    /// Lets a flight end at a vertiport.
+    fn end_flight(
+        &mut self,
+        aircraft: AircraftIx,
+        flight: usize,
+        time: Time,
+        at: VertiportIx,
+        notices: &mut Vec<Notice>,
+    ) {
+        let departed = matches!(self.aircraft[aircraft.at()].phase, Phase::InTheAir { .. });
+        let expected_at = self.known.place[aircraft.at()];
+        let latest_takeoff = self.latest_takeoff(aircraft, time, at);
+        let too_fast = self.landed_too_soon(aircraft, time, at);
+        // The report of a departure came with the notice of the planned flight. Without one, a
+        // flight that is too fast even from its decision on is not a matter of energy.
+        let is_energy_open = if departed { at != expected_at } else { too_fast.is_none() };
+        notices.extend(too_fast);
+        if at != expected_at {
+            notices.push(Notice::Diverted {
+                aircraft: self.id(aircraft),
+                at: self.vertiport_id(at),
+                to: self.vertiport_id(expected_at),
+            });
+            self.divert(aircraft, flight, at);
+        }
+        if let Some((_, takeoff)) = latest_takeoff
+            && is_energy_open
+            && at != self.decisions[flight].row.from
+        {
+            notices.extend(self.lacks_energy_for(flight, at, takeoff));
+        }
+        if self.decisions[flight].row.arrival != time {
+            self.set_arrival(aircraft, flight, time);
+        }
     }
 
     fn move_to(&mut self, aircraft: AircraftIx, at: VertiportIx) {
@@ -221,13 +248,7 @@ impl LiveDay {
 
     /// Lets a flight end at another vertiport. It takes the energy of the flight there, or what it
     /// was to take if it came back; everything else of its account stays.
-    fn divert(
-        &mut self,
-        aircraft: AircraftIx,
-        flight: usize,
-        at: VertiportIx,
-        notices: &mut Vec<Notice>,
-    ) {
+    fn divert(&mut self, aircraft: AircraftIx, flight: usize, at: VertiportIx) {
         self.move_to(aircraft, at);
         let LiveDecision { row, .. } = self.decisions[flight];
         if at != row.from {
@@ -242,7 +263,6 @@ impl LiveDay {
                 unreachable!("a flight is diverted while it is on its way");
             };
             self.set_takeoff(flight, takeoff);
-            notices.extend(self.lacks_energy_for(flight, at, takeoff));
         }
         self.set_arrival(aircraft, flight, row.arrival);
     }
