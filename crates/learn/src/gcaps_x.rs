@@ -15,7 +15,7 @@ use vertifleet_policy::{DayPrices, Policy, PolicyError, PriceMemory, PricedChoic
 use vertifleet_sim::{Decision, View};
 
 use crate::model::Model;
-use crate::rollouts::RolloutPlayer;
+use crate::rollouts::{ROLLOUTS, RolloutPlayer};
 use crate::scorer::Scorer;
 
 /// Decides by the day's prices and by a network that scores the choices whose worth is close to
@@ -78,32 +78,38 @@ impl Policy for GcapsX {
         view: &View<'_>,
         values: &mut [f64],
     ) -> Result<VertiportIx, PolicyError> {
-        self.values(decision, view, values)?;
-        if self.rollouts.is_some() {
-            return self.choose(decision, view);
+        let Self { scorer, prices, shortlist, scored, rollouts } = self;
+        let prices = prices.at(*view, decision);
+        let listed = shortlist.rank(prices, *view, decision);
+        let scene = PricedDecision::of(*view, decision, prices);
+        scorer.worth(scene, listed, scored);
+        // As in `choose`, if no worth is a number.
+        let mut otherwise = listed[0].to;
+        if let (Some((most_rolled_out, rollouts)), [_, _, ..]) = (rollouts, listed) {
+            scored.sort_by(|one, other| other.worth_usd.total_cmp(&one.worth_usd));
+            scored.truncate(*most_rolled_out);
+            let values_usd = rollouts.values_usd(scorer, &ROLLOUTS, scene, scored);
+            for (choice, &value_usd) in scored.iter_mut().zip(values_usd) {
+                choice.worth_usd = value_usd;
+            }
+            otherwise = decision.at;
         }
-        // As in `choose`, the first of the shortlist if no worth is a number.
-        let first = self.scored.first().map_or(decision.at, |choice| choice.to);
-        Ok(PricedChoice::best(self.scored.iter().copied()).unwrap_or(first))
+        values.fill(f64::NAN);
+        for choice in &*scored {
+            values[choice.to.at()] = choice.worth_usd;
+        }
+        Ok(PricedChoice::best(scored.iter().copied()).unwrap_or(otherwise))
     }
 
-    /// Worth of each choice of the shortlist by prices and network, dollars, before any roll-outs.
+    /// Worth of each choice of the shortlist by prices and network, dollars; with roll-outs, the
+    /// value of each choice that is rolled out.
     fn values(
         &mut self,
         decision: &Decision,
         view: &View<'_>,
         values: &mut [f64],
     ) -> Result<(), PolicyError> {
-        let Self { scorer, prices, shortlist, scored, .. } = self;
-        let prices = prices.at(*view, decision);
-        let listed = shortlist.rank(prices, *view, decision);
-        let scene = PricedDecision::of(*view, decision, prices);
-        scorer.worth(scene, listed, scored);
-        values.fill(f64::NAN);
-        for choice in scored {
-            values[choice.to.at()] = choice.worth_usd;
-        }
-        Ok(())
+        self.choose_with_values(decision, view, values).map(|_| ())
     }
 
     fn prices(&mut self, decision: &Decision, view: &View<'_>) -> Option<&DayPrices> {

@@ -58,8 +58,9 @@ impl Policy for Rolling {
         Ok(self.evaluator.best_choice(prices, *view, decision, listed))
     }
 
-    /// Mean value of the roll-outs of each choice of the shortlist, dollars. The choice is the one
-    /// that is worth most at the prices, unless another is better beyond doubt.
+    /// Mean value of the roll-outs of each choice of the shortlist, dollars; for all but the choice
+    /// that is worth most at the prices, less a margin for chance
+    /// ([`RolloutEvaluator::best_choice_with_values`]).
     fn values(
         &mut self,
         decision: &Decision,

@@ -4,7 +4,7 @@
 use vertifleet_core::VertiportIx;
 use vertifleet_sim::{Decision, View};
 
-use crate::{DayPrices, Policy, PolicyError, PriceMemory};
+use crate::{DayPrices, Policy, PolicyError, PriceMemory, PricedChoice};
 
 /// Decides by bid prices ([`DayPrices`](crate::DayPrices)): a choice is worth its flight's profit
 /// plus the worth of being ready where and when it ends, less the prices of its passengers and of
@@ -20,8 +20,8 @@ impl Policy for BidPricePolicy {
         Ok(prices.best_choice(*view, decision))
     }
 
-    /// Worth at the day's bid prices, dollars. The choice is another one where a simpler rule is
-    /// expected to earn more over the rest of the day.
+    /// Worth at the day's bid prices of each choice that the base rule permits, dollars. Where
+    /// greedy is expected to earn more over the rest of the day, that is its choice alone.
     fn values(
         &mut self,
         decision: &Decision,
@@ -30,8 +30,8 @@ impl Policy for BidPricePolicy {
     ) -> Result<(), PolicyError> {
         let prices = self.prices.at(*view, decision);
         values.fill(f64::NAN);
-        for to in view.feasible(decision).iter() {
-            values[to.at()] = prices.choice_usd(*view, decision, to);
+        for PricedChoice { worth_usd, to } in prices.open_choices(*view, decision) {
+            values[to.at()] = worth_usd;
         }
         Ok(())
     }

@@ -96,8 +96,11 @@ impl RolloutEvaluator {
         &self.values_usd
     }
 
-    /// The choice of [`best_choice`](Self::best_choice) and the [`values_usd`](Self::values_usd),
-    /// from the same roll-outs.
+    /// The choice of [`best_choice`](Self::best_choice) and the values that it compares, dollars,
+    /// in the list's order; the choice has the highest. The value of the first choice is that of
+    /// [`values_usd`](Self::values_usd). That of another one is lower by the margin for chance. For
+    /// a flight without passengers that earns no more over the rest of the day, it is below the
+    /// first by that loss.
     pub fn best_choice_with_values(
         &mut self,
         prices: &DayPrices,
@@ -105,8 +108,7 @@ impl RolloutEvaluator {
         decision: &Decision,
         listed: &[PricedChoice],
     ) -> (VertiportIx, &[f64]) {
-        self.values_usd(prices, view, decision, listed);
-        let rollouts = self.rollouts_usd.len() / listed.len();
+        let rollouts = self.roll_out(prices, view, decision, listed);
         let best = self.best_of_rollouts(prices, view, decision, listed, rollouts);
         (best, &self.values_usd)
     }
@@ -129,7 +131,8 @@ impl RolloutEvaluator {
         self.best_of_rollouts(prices, view, decision, listed, rollouts)
     }
 
-    /// The best choice of a list by the latest [`roll_out`](Self::roll_out).
+    /// The best choice of a list by the latest [`roll_out`](Self::roll_out). Writes the values that
+    /// it compares.
     fn best_of_rollouts(
         &mut self,
         prices: &DayPrices,
@@ -140,12 +143,16 @@ impl RolloutEvaluator {
     ) -> VertiportIx {
         let PricedChoice { worth_usd: first_usd, to: first } = listed[0];
         let (first_rollouts_usd, others_usd) = self.rollouts_usd.split_at(rollouts);
+        let first_value_usd = self.settings.value_usd(first_usd, first_rollouts_usd);
+        self.values_usd.clear();
+        self.values_usd.push(first_value_usd);
         self.better.clear();
         for (&PricedChoice { worth_usd: priced_usd, to }, rollouts_usd) in
             listed[1..].iter().zip(others_usd.chunks_exact(rollouts))
         {
             let surely_usd = surely_more_usd(rollouts_usd, first_rollouts_usd);
             let better_usd = self.settings.price_weight * (priced_usd - first_usd) + surely_usd;
+            self.values_usd.push(first_value_usd + better_usd);
             if better_usd > 0.0 {
                 self.better.push(PricedChoice { worth_usd: better_usd, to });
             }
@@ -159,9 +166,13 @@ impl RolloutEvaluator {
             }
             let first_day_usd =
                 *first_day_usd.get_or_insert_with(|| self.day_usd(prices, view, first));
-            if self.day_usd(prices, view, to) > first_day_usd {
+            let day_usd = self.day_usd(prices, view, to);
+            if day_usd > first_day_usd {
                 return to;
             }
+            let listed_at = listed.iter().position(|choice| choice.to == to);
+            let listed_at = listed_at.expect("the better choices are of the list");
+            self.values_usd[listed_at] = first_value_usd + (day_usd - first_day_usd);
         }
         first
     }

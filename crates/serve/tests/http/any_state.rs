@@ -75,6 +75,8 @@ fn ask_all(live: &mut LiveDay, policies: &mut [(&str, Box<dyn Policy>)]) -> u32 
             assert_eq!(at_once.expect("policies have an answer"), choice, "{name}");
             let bits = |values: &[f64]| values.iter().map(|usd| usd.to_bits()).collect::<Vec<_>>();
             assert_eq!(bits(&together), bits(&values), "{name}");
+            let most = values.iter().copied().fold(f64::NAN, f64::max);
+            assert!(most.is_nan() || values[choice.at()] == most, "{name}: {choice:?} {values:?}");
             asked += 1;
         }
     }

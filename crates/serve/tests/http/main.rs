@@ -1,5 +1,6 @@
 //! Tests of the service over HTTP.
 
+mod advised_choices;
 mod any_state;
 mod api;
 mod archived_days;
