@@ -138,7 +138,7 @@ fn lock(location: &Location) -> Result<Option<File>, Error> {
     }
 }
 
-/// Warns if the data are on a network file system.
+/// Warns if the data are on a file system of another machine.
 fn warn_of_network(location: &Location) {
     if let Location::Folder(folder) = location
         && let Some(kind) = network_file_system(folder)
@@ -146,8 +146,8 @@ fn warn_of_network(location: &Location) {
         tracing::warn!(
             folder = %folder.display(),
             kind,
-            "the data are on a network file system, on which SQLite cannot lock them: another \
-             program that uses the folder may damage them; use a local disk or --database"
+            "the data are on a file system of another machine, on which SQLite cannot lock them: \
+             another program that uses the folder may damage them; use a local disk or --database"
         );
     }
 }
