@@ -3,8 +3,8 @@
 
 mod whole_lists;
 
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer};
 
 use crate::{FileKind, FormatError};
 use whole_lists::Whole;
@@ -15,6 +15,16 @@ use whole_lists::Whole;
 #[serde(expecting = "an object with a member `format`")]
 struct Header {
     format: Option<String>,
+}
+
+/// Reads an optional member whose absence means its default. Null is the same as leaving it out, as
+/// for members whose absence means that there is none.
+pub(crate) fn or_default<'de, D, T>(from: D) -> Result<T, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Default + Deserialize<'de>,
+{
+    Ok(Option::<T>::deserialize(from)?.unwrap_or_default())
 }
 
 /// Reads JSON that states this format.
@@ -40,9 +50,13 @@ pub(crate) fn toml<T: DeserializeOwned>(
 /// The byte order mark, which some programs write at the start of UTF-8.
 pub(crate) const MARK: char = '\u{feff}';
 
-/// A text without the byte order mark at its start.
-pub(crate) fn without_mark(text: &[u8]) -> &[u8] {
-    text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(text)
+/// A text without the byte order mark at its start, or several of them: a program may add one to a
+/// text that has one.
+pub(crate) fn without_mark(mut text: &[u8]) -> &[u8] {
+    while let Some(rest) = text.strip_prefix("\u{feff}".as_bytes()) {
+        text = rest;
+    }
+    text
 }
 
 /// Refuses a network file where a scenario is expected. The text of a scenario can only be JSON.

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use serde::Deserialize;
 
 use crate::limits::{self, Limits};
-use crate::parse::shortened;
+use crate::parse::{or_default, shortened};
 use crate::{
     Aircraft, AircraftType, ChargeCurve, Charging, CurvePoint, Degrees, FormatError, Operations,
     Time, Vertiport, check,
@@ -27,7 +27,7 @@ pub(crate) struct RawOperations {
     takeoff_s: f64,
     landing_s: f64,
     hold_s: f64,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     passenger_wait_s: f64,
     charging: Option<String>,
 }
@@ -75,9 +75,9 @@ pub(crate) struct RawVertiport {
     busy: bool,
     latitude: Option<f64>,
     longitude: Option<f64>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     stand_cost: f64,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     charger_cost: f64,
 }
 
@@ -129,9 +129,9 @@ pub(crate) struct RawAircraftType {
     energy_kwh_per_mi: f64,
     charge_kw: f64,
     self_discharge_per_h: f64,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     reserve_kwh: f64,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     turnaround_s: f64,
     charge_curve: Option<Vec<[f64; 2]>>,
 }

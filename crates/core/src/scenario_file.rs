@@ -7,6 +7,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use crate::limits::{self, entries};
+use crate::parse::or_default;
 use crate::paths::origin;
 use crate::raw::{
     Positions, RawAircraftType, RawClosure, RawOperations, RawOutage, RawRoute, RawTakeoffDelays,
@@ -66,16 +67,16 @@ struct RawScenario {
     fare: Vec<Vec<RawFare>>,
     passenger_cost: Vec<Vec<f64>>,
     flight_cost: Option<Vec<Vec<f64>>>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     aircraft_cost: f64,
     periods: Vec<Time>,
     demand: Vec<Vec<Vec<f64>>>,
     energy_price: Vec<f64>,
     forecast: Option<Vec<Vec<Vec<f64>>>>,
     takeoff_delays: Option<RawTakeoffDelays>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     closures: Vec<RawClosure>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     outages: Vec<RawOutage>,
 }
 

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use crate::limits;
+use crate::parse::or_default;
 use crate::raw::{Positions, each};
 use crate::{AircraftIx, Closure, FormatError, Outage, Route, TakeoffDelays, Time, VertiportIx};
 
@@ -11,7 +12,7 @@ use crate::{AircraftIx, Closure, FormatError, Outage, Route, TakeoffDelays, Time
 pub(crate) struct RawRoute {
     pub(crate) from: String,
     pub(crate) to: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     pub(crate) both_ways: bool,
 }
 
@@ -33,11 +34,11 @@ impl RawRoute {
 pub(crate) struct RawClosure {
     from: String,
     to: String,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     both_ways: bool,
     start: Time,
     end: Time,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "or_default")]
     known: bool,
 }
 

@@ -144,13 +144,59 @@ fn costs_and_places_survive_and_are_not_written_where_there_are_none() {
 #[test]
 fn files_from_windows_are_read() {
     let windows = |text: &str| format!("\u{feff}{}", text.replace('\n', "\r\n"));
-    assert_eq!(Scenario::from_json(windows(SMALL).as_bytes(), "day").expect("a scenario"), small());
+    let twice = format!("\u{feff}{}", windows(SMALL));
+    for text in [windows(SMALL), twice] {
+        assert_eq!(Scenario::from_json(text.as_bytes(), "day").expect("a scenario"), small());
+    }
     let seed = DaySeed::comparison(1).expect("a small seed");
     let network = Network::from_toml(&windows(NETWORK), "net").expect("a network");
     let plain = Network::from_toml(NETWORK, "net").expect("a network");
     assert_eq!(network.draw(seed), plain.draw(seed));
     let again = Network::from_toml(network.toml(), "net").expect("its own text");
     assert_eq!(again.toml(), network.toml());
+}
+
+/// Many programs write null for a member that has no value.
+#[test]
+fn null_is_the_same_as_an_optional_member_that_is_left_out() {
+    let mut file: serde_json::Value = serde_json::from_str(SMALL).expect("JSON");
+    let null = |part: &mut serde_json::Value, members: &[&str]| {
+        for &member in members {
+            assert!(part.get(member).is_none(), "{member}");
+            part[member] = serde_json::Value::Null;
+        }
+    };
+    null(&mut file["operations"], &["passenger_wait_s", "charging"]);
+    let of_vertiport =
+        ["chargers", "charger_kw", "latitude", "longitude", "stand_cost", "charger_cost"];
+    null(&mut file["vertiports"][0], &of_vertiport);
+    null(&mut file["aircraft_types"][0], &["reserve_kwh", "turnaround_s", "charge_curve"]);
+    null(&mut file["aircraft"][0], &["start_charge_kwh"]);
+    let of_day = ["flight_cost", "aircraft_cost", "forecast", "takeoff_delays", "outages"];
+    null(&mut file, &of_day);
+    let mut with_routes = file.clone();
+    null(&mut file, &["corridors", "closures"]);
+    let read = |file: &serde_json::Value| Scenario::from_json(file.to_string().as_bytes(), "day");
+    assert_eq!(read(&file).expect("a scenario"), small());
+
+    let route = |rest: &str| format!(r#"{{"from": "A", "to": "B"{rest}}}"#);
+    let closed = r#", "both_ways": null, "known": null, "start": "07:00:00", "end": "08:00:00""#;
+    let json = |text: String| serde_json::from_str::<serde_json::Value>(&text).expect("JSON");
+    with_routes["closures"] = json(format!("[{}]", route(closed)));
+    with_routes["corridors"] = json(format!(
+        r#"[{}, {{"from": "A", "to": "C", "both_ways": true}}]"#,
+        route(r#", "both_ways": null"#)
+    ));
+    let day = read(&with_routes).expect("a scenario");
+    assert!(!day.disturbances.closures[0].route.both_ways && !day.disturbances.closures[0].known);
+
+    let mut required = file.clone();
+    required["operations"]["hold_s"] = serde_json::Value::Null;
+    let refused = read(&required).expect_err("a required member").to_string();
+    assert!(refused.contains("operations.hold_s: invalid type: null"), "{refused}");
+    file["unknown"] = serde_json::Value::Null;
+    let refused = read(&file).expect_err("an unknown member").to_string();
+    assert!(refused.contains("unknown field `unknown`"), "{refused}");
 }
 
 #[test]
