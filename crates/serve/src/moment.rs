@@ -64,7 +64,9 @@ impl Moment {
             return Self::of_seconds(seconds);
         }
         // RFC 3339 permits a lower-case letter or a blank between date and time.
-        if !text.contains(['T', 't', ' ']) {
+        let year = text.trim_ascii_start().split_once('-').map(|(year, _)| year);
+        let begins_with_year = year.is_some_and(|year| year.parse::<u16>().is_ok());
+        if !(begins_with_year && text.contains(['T', 't', ' '])) {
             let time = text.parse::<Time>().map_err(|error| error.to_string())?;
             return Self::of_seconds(time.seconds().into());
         }

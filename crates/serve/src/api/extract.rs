@@ -189,9 +189,12 @@ fn no_number(body: &[u8], error: &serde_json::Error) -> Option<&'static str> {
         .next()
 }
 
-/// A body without the byte order mark that some programs begin a text with.
-pub(super) fn without_mark(body: &[u8]) -> &[u8] {
-    body.strip_prefix(b"\xef\xbb\xbf").unwrap_or(body)
+/// A body without the byte order mark that some programs begin a text with, or several of them.
+pub(super) fn without_mark(mut body: &[u8]) -> &[u8] {
+    while let Some(rest) = body.strip_prefix(b"\xef\xbb\xbf") {
+        body = rest;
+    }
+    body
 }
 
 /// Parses the JSON object of a request. An empty body is the empty object.

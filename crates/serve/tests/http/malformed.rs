@@ -106,9 +106,12 @@ fn json_may_begin_with_a_byte_order_mark() {
     let day = service.new_day("greedy");
     let path = format!("{day}/events");
     for body in [r#"{"type": "clock"}"#, r#"[{"type": "clock"}]"#] {
-        let marked = [b"\xef\xbb\xbf", body.as_bytes()].concat();
-        let taken = service.send("POST", &path, &[], &marked);
-        assert_eq!(taken.status, 201, "{taken:?}");
+        // Programs that add one to a text that has one already write two.
+        for marks in [1, 2] {
+            let marked = ["\u{feff}".repeat(marks).as_str(), body].concat();
+            let taken = service.send("POST", &path, &[], marked.as_bytes());
+            assert_eq!(taken.status, 201, "{taken:?}");
+        }
     }
 }
 
@@ -178,6 +181,41 @@ fn null_is_the_same_as_an_optional_member_that_is_left_out() {
     });
     let made = service.post("/v1/studies", &study);
     assert_eq!(made.status, 201, "{made:?}");
+}
+
+#[test]
+fn null_in_a_scenario_is_the_same_as_an_optional_member_that_is_left_out() {
+    let (_folder, service) = service();
+    let mut scenario: Value =
+        serde_json::from_str(include_str!("../../../core/tests/data/small.json")).expect("JSON");
+    scenario["operations"]["passenger_wait_s"] = Value::Null;
+    scenario["closures"] = Value::Null;
+    let post = |scenario: &Value| service.post("/v1/days", &json!({"scenario": scenario}));
+    let made = post(&scenario);
+    assert_eq!(made.status, 201, "{made:?}");
+    scenario["operations"]["hold_s"] = Value::Null;
+    let refused = post(&scenario);
+    assert_eq!(refused.status, 400);
+    assert!(refused.json["detail"].to_string().contains("operations.hold_s"), "{refused:?}");
+}
+
+#[test]
+fn the_reason_why_a_time_is_refused_is_true() {
+    let (_folder, service) = service();
+    let day = service.new_day("greedy");
+    for (time, reason) in [
+        (" 09:05:00", "expected a time as HH:MM:SS, found \" 09:05:00\""),
+        ("09:05:00 ", "expected a time as HH:MM:SS, found \"09:05:00 \""),
+        ("9:05 AM", "expected a time as HH:MM:SS, found \"9:05 AM\""),
+        ("today", "expected a time as HH:MM:SS, found \"today\""),
+        ("2026-11-23", "expected a time as HH:MM:SS, found \"2026-11-23\""),
+        ("2026-11-23T07:10:00Z", "has a date, but the day has none"),
+        (" 2026-11-23 07:10:00Z", "has a date, but the day has none"),
+    ] {
+        let refused = service.event(&day, &json!({"type": "clock", "time": time}));
+        let detail = refused.json["detail"].as_str().unwrap_or_default();
+        assert!(refused.status == 400 && detail.contains(reason), "{time:?}: {refused:?}");
+    }
 }
 
 #[test]
