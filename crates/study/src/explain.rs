@@ -21,7 +21,7 @@ use crate::account::Account;
 use crate::error::Error;
 use crate::resolved_policy::ResolvedPolicy;
 
-use proven::Proven;
+use proven::{Across, Proven};
 use worth::Change;
 
 pub use worth::Worth;
@@ -76,14 +76,15 @@ pub fn explain(
         let again = plays_again.then(|| policy.play(name, &change.day, stop)).transpose()?;
         let policy_usd = again.map(|(_, again)| again.profit_usd - totals.profit_usd);
         let bounded = bound_of(&change.day, slices, stop)?;
+        let across = Across::of((scenario, &bound), &change, &bounded, stop);
         solved(0);
-        Ok((change, policy_usd, bounded))
+        Ok((change, policy_usd, bounded, across))
     };
     let solved = changes.into_par_iter().map(solve).collect::<Result<Vec<_>, Error>>()?;
-    let bounds = solved.iter().map(|(change, _, bounded)| (change, bounded));
+    let bounds = solved.iter().map(|(change, _, bounded, _)| (change, bounded));
     let proven = Proven::of(scenario, &bound, bounds)?;
-    let worth = solved.iter().map(|(change, policy_usd, bounded)| {
-        let rise = proven.rise(change, bounded);
+    let worth = solved.iter().map(|(change, policy_usd, bounded, across)| {
+        let rise = proven.rise(change, bounded, across);
         Worth {
             change: change.words.clone(),
             cost_usd: change.cost_usd,

@@ -75,13 +75,34 @@ fn kept(scenario: &Scenario, stopped: &Stop, path: &Path) -> Option<Bound> {
     if kept.levels.is_some_and(|levels| levels != 1 && !LEVELS.contains(&levels)) {
         return None;
     }
-    let levels = kept.levels.unwrap_or(1);
-    let day = TimeExpandedDay::of(scenario, &[], step.seconds(), levels).ok()?;
-    let prices = Prices::checked(&day, kept.stand, kept.flight, kept.charging)?;
-    let micro_usd = Certificate::new(&day).evaluate(&day, &prices, stopped)?;
-    let bound = Bound::of(step, &day, &Found { prices, micro_usd });
+    let Kept { stand, flight, charging, levels, .. } = kept;
+    let bound =
+        proven(scenario, stopped, (step, levels.unwrap_or(1)), Prices { stand, flight, charging })?;
     // Only prices of a search that came to its end are kept.
     Some(Bound { is_final: true, ..bound })
+}
+
+/// The bound of a day that prices prove in slices of a length, with a number of levels of charge.
+fn proven(
+    scenario: &Scenario,
+    stopped: &Stop,
+    (step, levels): (Step, u16),
+    prices: Prices,
+) -> Option<Bound> {
+    let day = TimeExpandedDay::of(scenario, &[], step.seconds(), levels).ok()?;
+    let prices = prices.checked(&day)?;
+    let micro_usd = Certificate::new(&day).evaluate(&day, &prices, stopped)?;
+    Some(Bound::of(step, &day, &Found { prices, micro_usd }))
+}
+
+impl Bound {
+    /// What the prices of this bound prove of another day, which differs in what aircraft and
+    /// chargers can do; dollars. `None` if the days have other prices, the other one is too large,
+    /// or `stopped` is requested meanwhile.
+    pub fn of_other_usd(&self, scenario: &Scenario, stopped: &Stop) -> Option<f64> {
+        let bound = proven(scenario, stopped, (self.step, self.levels), self.prices.clone())?;
+        Some(bound.upper_bound_usd())
+    }
 }
 
 fn path(scenario: &Scenario, step: Step, folder: &Path) -> PathBuf {

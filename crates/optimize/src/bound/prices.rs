@@ -40,13 +40,9 @@ impl Prices {
         }
     }
 
-    /// Prices from a file, if they are valid prices for this day.
-    pub(super) fn checked(
-        day: &TimeExpandedDay,
-        stand: Vec<i64>,
-        flight: Vec<i64>,
-        charging: Vec<i64>,
-    ) -> Option<Self> {
+    /// The prices of a file or of another day, if they are valid prices for this day.
+    pub(super) fn checked(self, day: &TimeExpandedDay) -> Option<Self> {
+        let Self { stand, flight, charging } = &self;
         let lengths = stand.len() == day.slices.len() * day.size()
             && flight.len() == day.market.prices()
             && charging.len() == day.charging.prices();
@@ -56,7 +52,7 @@ impl Prices {
             && charging.iter().all(|price| (0..=MOST_A_SECOND).contains(price))
             && lengths
             && flight.iter().enumerate().all(within);
-        within.then_some(Self { stand, flight, charging })
+        within.then_some(self)
     }
 
     /// The same prices in other slices of the same day. The price of a stand in a slice is spread

@@ -57,7 +57,7 @@ fn any_prices(expanded: &TimeExpandedDay, seed: u64) -> Prices {
     let stand = (0..first.stand.len()).map(|at| below(at, 20_000_000)).collect();
     let flight = first.flight.iter().enumerate().map(|(at, &most)| below(at, most)).collect();
     let charging = (0..first.charging.len()).map(|at| below(at, 20_000)).collect();
-    Prices::checked(expanded, stand, flight, charging).expect("within their limits")
+    Prices { stand, flight, charging }.checked(expanded).expect("within their limits")
 }
 
 /// Arbitrary payments for knowing delays.

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use vertifleet_core::{DaySeed, Network, Stop};
-use vertifleet_optimize::{Step, upper_bound};
+use vertifleet_optimize::{Bound, Step, upper_bound};
 use vertifleet_report::{EXPLANATION_PAGE, explanation};
 use vertifleet_sim::Trace;
 use vertifleet_study::account::Account;
@@ -129,28 +129,46 @@ fn what_nothing_can_be_gained_by_is_within_the_error_of_the_bound() {
     }
 }
 
-/// What other searches gain on the day as it is does not count for a change.
+/// Batteries that outlast the day need no more energy and no more power.
 #[test]
-fn bounds_of_one_search_each_are_compared() {
+fn energy_that_no_flight_needs_is_worth_nothing() {
+    let mut ample = vertifleet_core::Scenario::clone(&day("paper-quick")).into_day();
+    ample.aircraft_types[0].battery_kwh = 2_000.0;
+    let ample = Arc::new(ample.check("a day with huge batteries").expect("a day"));
+    let step = Step::from_minutes(60).expect("a step");
+    let found = explain(&ample, "greedy", &greedy(), step, &Stop::default(), &|_| ());
+    for worth in &found.expect("a day").worth {
+        if worth.change.contains("10 kWh") || worth.change.contains("1 kW") {
+            assert!(worth.is_within_error, "{worth:?}");
+        }
+    }
+}
+
+/// The prices of two searches count on both days, and those of other searches on neither.
+#[test]
+fn bounds_by_the_same_prices_are_compared() {
     let step = Step::from_minutes(60).expect("a step").with_levels(16).expect("levels");
     let day = day("paper-quick");
     let found = explain(&day, "greedy", &greedy(), step, &Stop::default(), &|_| ());
     let found = found.expect("a day");
-    let searched = |day: &vertifleet_core::Scenario| {
-        upper_bound(day, step).expect("a bound").upper_bound_usd()
+    let own = upper_bound(&day, step).expect("a bound");
+    let rise = |changed: vertifleet_core::Day| {
+        let changed = changed.check("a changed day").expect("a day");
+        let bound = upper_bound(&changed, step).expect("a bound");
+        let across =
+            |bound: &Bound, day| bound.of_other_usd(day, &Stop::default()).expect("prices");
+        bound.upper_bound_usd().min(across(&own, &changed))
+            - own.upper_bound_usd().min(across(&bound, &day))
     };
-    let own_usd = searched(&day);
     let worth = |words: &str| {
         found.worth.iter().find(|one| one.change.contains(words)).expect("a change").bound_usd
     };
     let mut changed = vertifleet_core::Scenario::clone(&day).into_day();
     changed.aircraft_types[0].battery_kwh += 10.0;
-    let changed = changed.check("a changed day").expect("a day");
-    assert_eq!(worth("10 kWh more"), searched(&changed) - own_usd);
+    assert_eq!(worth("10 kWh more"), rise(changed));
     let mut changed = vertifleet_core::Scenario::clone(&day).into_day();
     changed.operations.takeoff_s -= 60;
-    let changed = changed.check("a changed day").expect("a day");
-    assert_eq!(worth("a minute less"), searched(&changed) - own_usd);
+    assert_eq!(worth("a minute less"), rise(changed));
 }
 
 #[test]

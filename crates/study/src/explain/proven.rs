@@ -28,13 +28,14 @@
 //! cost, because no price is below 0, and at most the shadow price less the cost, because the
 //! prices of the day's own bound are among them.
 //!
-//! No other prices prove anything for a day with more seats, energy or power, or with shorter
-//! take-offs. Its bound is what its own search found, so it is compared with what the day's own
-//! search found: a bound that other searches have lowered would make the change look worth as much
-//! as they gained. That amount is the known error of a search, within which a difference has no
-//! meaning.
+//! A day with more seats, energy or power, or with shorter take-offs, is compared by the prices of
+//! its own search and by those of the day's, both evaluated on both days: where the change has no
+//! effect, the two bounds are then the same. Prices of further searches count on neither day,
+//! because they would make the change look worth as much as they gain on one of them. By how much
+//! the prices of another search lower a bound is the known error of its own search, within which a
+//! difference has no meaning.
 
-use vertifleet_core::{Scenario, VertiportIx};
+use vertifleet_core::{Scenario, Stop, VertiportIx};
 use vertifleet_optimize::{Bound, DesignBound};
 
 use super::worth::{Change, Effect};
@@ -53,6 +54,34 @@ pub(super) struct Rise {
     pub(super) usd: f64,
     /// Whether that is no more than the known error of a search.
     pub(super) is_within_error: bool,
+}
+
+/// What the prices of two searches prove of the other's day, dollars; infinite if nothing.
+pub(super) struct Across {
+    /// Of the day as it is, by the prices of the changed day.
+    day_usd: f64,
+    /// Of the changed day, by those of the day as it is.
+    changed_usd: f64,
+}
+
+impl Across {
+    /// Evaluates the prices of a day and of its change on each other's day, where nothing else
+    /// makes the two comparable.
+    pub(super) fn of(
+        (day, bound): (&Scenario, &Bound),
+        change: &Change,
+        changed: &Bound,
+        stop: &Stop,
+    ) -> Self {
+        let proven = |bound: &Bound, day| match change.effect {
+            Effect::Stand(_) | Effect::Aircraft(..) => None,
+            _ => bound.of_other_usd(day, stop),
+        };
+        Self {
+            day_usd: proven(changed, day).unwrap_or(f64::INFINITY),
+            changed_usd: proven(bound, &change.day).unwrap_or(f64::INFINITY),
+        }
+    }
 }
 
 /// Prices, and the bound that they prove for the day as it is.
@@ -113,7 +142,7 @@ impl<'a> Proven<'a> {
 
     /// By how much the bound of a changed day is higher. `bound` was searched for on the changed
     /// day.
-    pub(super) fn rise(&self, change: &Change, bound: &Bound) -> Rise {
+    pub(super) fn rise(&self, change: &Change, bound: &Bound, across: &Across) -> Rise {
         let changed_usd = match change.effect {
             Effect::Stand(at) => {
                 let proven =
@@ -125,20 +154,27 @@ impl<'a> Proven<'a> {
                 let proven = self.upper_bound_usd() + most_usd - change.cost_usd + ROUNDING_USD;
                 bound.upper_bound_usd().min(proven)
             }
-            Effect::Seat => return self.rise_of_searches(bound, 0.0),
+            Effect::Seat => return self.rise_of_searches(bound, across, 0.0),
             Effect::TakeOff | Effect::Battery | Effect::Power => {
-                return self.rise_of_searches(bound, f64::NEG_INFINITY);
+                return self.rise_of_searches(bound, across, f64::NEG_INFINITY);
             }
         };
         Rise { usd: changed_usd - self.upper_bound_usd(), is_within_error: false }
     }
 
-    /// The rise from what the day's own search found to what that of the changed day did, of which
-    /// it is known that it is at least `least_usd`.
-    fn rise_of_searches(&self, bound: &Bound, least_usd: f64) -> Rise {
-        let own_usd = self.all[0].upper_bound_usd;
-        let usd = (bound.upper_bound_usd() - own_usd).max(least_usd);
-        let error_usd = (own_usd - self.upper_bound_usd()).max(SEARCH_ERROR * own_usd.abs());
+    /// The rise by the prices of two searches, the day's own and that of the changed day. It is
+    /// known that it is at least `least_usd`.
+    fn rise_of_searches(&self, bound: &Bound, across: &Across, least_usd: f64) -> Rise {
+        let searched = [self.all[0].upper_bound_usd, bound.upper_bound_usd()];
+        let [own_usd, changed_usd] =
+            [searched[0].min(across.day_usd), searched[1].min(across.changed_usd)];
+        let usd = (changed_usd - own_usd).max(least_usd);
+        let gained = [
+            searched[0] - self.upper_bound_usd(),
+            searched[0] - own_usd,
+            searched[1] - changed_usd,
+        ];
+        let error_usd = gained.into_iter().fold(SEARCH_ERROR * own_usd.abs(), f64::max);
         Rise { usd, is_within_error: usd.abs() <= error_usd }
     }
 }
