@@ -40,9 +40,9 @@ impl Network {
     ) -> Result<Self, Error> {
         let origin = format!("{}, changed", self.name());
         let mut file: DocumentMut = self.toml().parse().expect("the text has been read before");
+        let mut paths = Vec::new();
         for (path, value) in changes {
-            let nowhere =
-                |part: &str| Error::NoSuchMember { path: path.clone(), part: shortened(part, 64) };
+            let nowhere = |part: &str| nowhere(path, part, String::new());
             let value = value.serialize(ValueSerializer::new()).map_err(|error| {
                 let problem = format!("{path}: {error}");
                 FormatError::NotParsed { line: 1, column: 1, problem }.in_file(&origin)
@@ -50,10 +50,14 @@ impl Network {
             let names = member_path::names(path);
             let parts: Vec<&str> = names.iter().map(String::as_str).collect();
             set(file.as_table_mut(), &parts, &value).map_err(|part| nowhere(&part))?;
+            paths.push(path);
         }
         kept::keep_start_stands(self, file.as_table_mut());
         kept::keep_reference(self, file.as_table_mut());
-        Self::from_toml(&file.to_string(), &origin)
+        Self::from_toml(&file.to_string(), &origin).map_err(|error| {
+            let unknown = paths.iter().find_map(|path| unknown_member(path, &error));
+            unknown.unwrap_or(error)
+        })
     }
 
     /// The members of the network's file that a path names, as [`changed`](Self::changed) reads it,
@@ -68,12 +72,26 @@ impl Network {
         let parts: Vec<&str> = names.iter().map(String::as_str).collect();
         let mut found = Vec::new();
         let outcome = find(&file, &parts, &mut Vec::new(), &mut found);
-        outcome.map_err(|part| Error::NoSuchMember {
-            path: path.to_owned(),
-            part: shortened(&part, 64),
-        })?;
+        outcome.map_err(|part| nowhere(path, &part, String::new()))?;
         Ok(found)
     }
+}
+
+/// The error that a part of a path does not exist.
+fn nowhere(path: &str, part: &str, expected: String) -> Error {
+    Error::NoSuchMember { path: path.to_owned(), part: shortened(part, 64), expected }
+}
+
+/// The error that the format does not know the last part of a path, if this is why a changed file
+/// is refused.
+fn unknown_member(path: &str, error: &Error) -> Option<Error> {
+    let Error::InFile { error: FormatError::WrongMember { problem, .. }, .. } = error else {
+        return None;
+    };
+    let names = member_path::names(path);
+    let last = names.last()?;
+    let expected = problem.strip_prefix(&format!("unknown field `{last}`"))?;
+    Some(nowhere(path, last, shortened(expected, 500)))
 }
 
 /// Finds the members that a path leads to. `passed` are the parts of the path before. The error is
@@ -250,7 +268,16 @@ mod tests {
 
     #[test]
     fn a_path_that_leads_nowhere_is_named() {
-        for path in ["vertiports.V99.stands", "fleet.7.count", "operation.hold_s", "name.first"] {
+        for path in [
+            "vertiports.V99.stands",
+            "fleet.7.count",
+            "operation.hold_s",
+            "name.first",
+            "fleet.0.colour",
+            "tariffs.fare_levl",
+            "aircraft_types.*.seatz",
+            "colour",
+        ] {
             let error = changed(&json!({path: 1})).expect_err("no such member");
             assert_eq!(error.code().to_string(), "V123", "{path}: {error}");
             assert!(error.to_string().contains(path), "{error}");
@@ -260,7 +287,7 @@ mod tests {
     #[test]
     fn what_the_format_does_not_know_is_refused() {
         let codes = [
-            (json!({"fleet.0.colour": "red"}), "V106"),
+            (json!({"fleet.0.count": "red"}), "V106"),
             (json!({"fleet.0.count": -1}), "V104"),
             (json!({"fleet.0.count": 4000}), "V117"),
             (json!({"fleet.0.count": null}), "V105"),

@@ -69,17 +69,19 @@ pub enum Error {
     },
 
     /// V123 change of a member that is not there. A change of a network names a member by a path
-    /// that does not exist.
+    /// that does not exist, or that the format does not know.
     ///
     /// Fix: name members as in the network file, with dots between them. Name the entries of a list
     /// by their `id`, by their position from 0, or by `*` for all of them: `vertiports.V3.stands`,
     /// `fleet.0.count`.
-    #[error("{path:?} leads nowhere: there is no {part:?}")]
+    #[error("{path:?} leads nowhere: there is no {part:?}{expected}")]
     NoSuchMember {
         /// The path.
         path: String,
         /// The first part of the path that does not exist.
         part: String,
+        /// A comma and the members that the format knows, or nothing.
+        expected: String,
     },
 
     /// V119 unknown network. A name is neither a shipped network, nor `random:` with a number, nor

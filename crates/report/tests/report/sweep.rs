@@ -281,7 +281,7 @@ fn batteries_reserves_and_powers_can_be_varied() {
 fn an_invalid_sweep_is_refused_before_any_day_is_played() {
     let codes = [
         (vec!["fleet.7.count=1,2"], Design::Grid, "V123"),
-        (vec!["fleet.0.colour=1,2"], Design::Grid, "V106"),
+        (vec!["fleet.0.colour=1,2"], Design::Grid, "V123"),
         (vec!["fleet.0.count=-1,2"], Design::Grid, "V104"),
         (vec!["fleet.0.count=1..2"], Design::Grid, "V407"),
         (vec!["fleet.0.count=1..2"], Design::LatinHypercube { cells: 1, seed: 1 }, "V407"),

@@ -429,6 +429,10 @@ mod tests {
             ("tarifs.fare_level=1..2", 123),
             ("vertiport.JFK.stands=1..3", 123),
             ("fleet.midnigth.count=1..3", 123),
+            ("fleet.midnight.cont=1..3", 123),
+            ("tariffs.fare_levl=1..2", 123),
+            ("aircraft_types.midnight.seatz=1..3", 123),
+            ("aircraft_types.midnight.seats=1..3", 407),
             ("tariffs.fare_level=1..2", 407),
         ] {
             let error = space(&[factor]).expect_err(factor);
