@@ -185,7 +185,9 @@ mod tests {
         let more = network.changed([(&path, &json!(9))]).expect("a network");
         let differences = network.differences(&more);
         assert!(
-            differences.iter().any(|one| one.path == path && one.after == Some("9".to_owned()))
+            differences
+                .iter()
+                .any(|one| one.path.as_ref() == Some(&path) && one.after == Some("9".to_owned()))
         );
     }
 

@@ -55,7 +55,8 @@ pub(crate) enum NetworkAction {
         one: String,
         /// Network file or name
         other: String,
-        /// Print the differences as JSON
+        /// Print the differences as JSON: path, before and after; a number of the hourly demand has
+        /// from, to and period, and a path if the first network has its pair
         #[arg(long)]
         json: bool,
     },

@@ -305,7 +305,7 @@ fn diff(one: &str, other: &str, as_json: bool) -> Result<ExitCode, Failure> {
         let text = |value: &Option<String>| value.clone().unwrap_or_else(|| "nothing".to_owned());
         let place = match &difference.demand {
             Some(cell) => format!("demand from {} to {} at {}", cell.from, cell.to, cell.period),
-            None => difference.path.clone(),
+            None => difference.path.clone().unwrap_or_default(),
         };
         format!("{place}: {} -> {}", text(&difference.before), text(&difference.after))
     };

@@ -11,8 +11,10 @@ use crate::Network;
 /// A member in which two network files differ.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Difference {
-    /// Where it is: `vertiports.JFK.stands`.
-    pub path: String,
+    /// Where it is: `vertiports.JFK.stands`. A number of the hourly demand has the path that leads
+    /// to it in the first file, and none if that file does not have its pair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
     /// The value in the first file; `None` if the file does not have the member.
     pub before: Option<String>,
     /// The value in the second file; `None` if the file does not have the member.
@@ -82,7 +84,12 @@ fn compare(
         (before, after) => {
             let text =
                 |value: Option<&Value>| value.map(|value| value.to_string().trim().to_owned());
-            found.push(Difference { path, before: text(before), after: text(after), demand: None });
+            found.push(Difference {
+                path: Some(path),
+                before: text(before),
+                after: text(after),
+                demand: None,
+            });
         }
     }
 }
@@ -94,7 +101,7 @@ fn compare_positions(path: &str, before: &[Value], after: &[Value], found: &mut 
     if are_plain(before) && are_plain(after) {
         let text = |list: &[Value]| Some(Value::Array(list.to_vec()).to_string());
         let (before, after) = (text(before), text(after));
-        found.push(Difference { path: path.to_owned(), before, after, demand: None });
+        found.push(Difference { path: Some(path.to_owned()), before, after, demand: None });
         return;
     }
     for at in 0..before.len().max(after.len()) {

@@ -26,9 +26,10 @@ pub(super) fn compare(before: &mut Value, after: &mut Value) -> Vec<Difference> 
         let number = |cells: &Cells| cells.get(cell).map_or(0.0, |(number, _)| *number);
         let (before, after) = (number(&one), number(&other));
         let (from, to, period) = cell.clone();
-        let (_, path) = one.get(cell).or_else(|| other.get(cell))?;
-        (before != after).then(|| Difference {
-            path: path.clone(),
+        // A position in the second file is that of another pair in the first.
+        let path = one.get(cell).map(|(_, path)| path.clone());
+        (before != after).then_some(Difference {
+            path,
             before: Some(before.to_string()),
             after: Some(after.to_string()),
             demand: Some(DemandCell { from, to, period }),
