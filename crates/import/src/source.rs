@@ -15,19 +15,16 @@ use zip::result::ZipError;
 use crate::Error;
 use crate::error::shortened;
 use crate::input_file::InputFile;
+use crate::table::without_mark;
 
 /// The longest file that is read whole, packed or unpacked.
 pub(crate) const LONGEST: u64 = 16 << 20;
 /// Number of first bytes by which a file is recognised.
-const OPENING: u64 = 16;
+const OPENING: u64 = 4_096;
 
 /// Files that planners have and that hold no table or map that can be read: their first bytes, what
 /// they are, and what to do with them.
-const OTHERS: [(&[u8], &str); 22] = [
-    (b"<NUMBER OF", TNTP),
-    (b"<TOTAL OD", TNTP),
-    (b"<FIRST THRU", TNTP),
-    (b"<END OF METADATA", TNTP),
+const OTHERS: [(&[u8], &str); 19] = [
     (
         b"\x89HDF\r\n\x1a\n",
         "an HDF5 file, perhaps an OMX matrix: write its table as CSV with period,from,to,passengers",
@@ -46,12 +43,50 @@ const OTHERS: [(&[u8], &str); 22] = [
     (b"SQLite format 3", "a SQLite database, perhaps a GeoPackage: export CSV or GeoJSON from it"),
     (b"\0\0\x27\x0a", "a shapefile: export GeoJSON from it, in longitude and latitude (WGS 84)"),
     (b"ARROW1", "an Arrow file (Feather): write it as Parquet or CSV"),
+    (b"\xff\xff\xff\xff", "an Arrow IPC stream: write it as Parquet or CSV"),
     (b"%PDF", "a PDF document: save the table as CSV"),
     (b"<", "an XML or HTML document: export CSV or GeoJSON"),
     (b"{\\rtf", "a document of a word processor: save the table as CSV"),
 ];
 
 const TNTP: &str = "a TNTP file: write its trip table as CSV with period,from,to,passengers, and its nodes as CSV with id,latitude,longitude";
+
+/// The name and remedy of a file that begins with these bytes and holds neither a table nor a map.
+fn other_format(opening: &[u8]) -> Option<&'static str> {
+    let text = without_mark(opening).trim_ascii_start();
+    let begins = |(first, _): &(&[u8], &str)| opening.starts_with(first) || text.starts_with(first);
+    if is_tntp(text) {
+        return Some(TNTP);
+    }
+    // A name of a column may begin with the same letters.
+    if opening.starts_with(b"ORC") && is_binary(opening) {
+        return Some("an ORC file: write it as Parquet or CSV");
+    }
+    OTHERS.into_iter().find(begins).map(|(_, problem)| problem)
+}
+
+/// Whether a text is a file of the Transportation Networks for Research: metadata in angle
+/// brackets, comments that begin with a tilde, and columns between blanks with a semicolon at the
+/// end of each line.
+fn is_tntp(text: &[u8]) -> bool {
+    let lines = text.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
+    let mut lines = lines.filter(|line| !line.is_empty());
+    let first = lines.find(|line| !line.starts_with(b"~")).unwrap_or_default();
+    let has_metadata =
+        ["<NUMBER OF", "<TOTAL OD", "<FIRST THRU", "<ORIGINAL HEADER", "<END OF METADATA"]
+            .iter()
+            .any(|name| first.to_ascii_uppercase().starts_with(name.as_bytes()));
+    let semicolons = first.iter().filter(|&&byte| byte == b';').count();
+    let blanks = first.iter().any(u8::is_ascii_whitespace);
+    let of_columns = semicolons == 1 && first.ends_with(b";") && blanks && !first.contains(&b',');
+    let of_trips = first.starts_with(b"Origin") && lines.any(|line| line.contains(&b':'));
+    has_metadata || of_columns || of_trips && !first.contains(&b',')
+}
+
+/// Whether bytes are no text: they have control characters that no text has.
+pub(crate) fn is_binary(bytes: &[u8]) -> bool {
+    bytes.iter().any(|byte| byte.is_ascii_control() && !byte.is_ascii_whitespace())
+}
 
 /// The name and remedy of JSON that is neither GeoJSON nor a table, by what it begins with and
 /// contains; `None` if the text is no JSON.
@@ -99,8 +134,8 @@ pub(crate) fn other_json(text: &[u8]) -> Option<&'static str> {
 /// How the messages of [`other_json`] begin that name no other format than a map may have.
 pub(crate) const GENERAL: [&str; 2] = ["it is GeoJSON", "it is JSON:"];
 
-/// Bytes of JSON in which its kind is looked for.
-const LONGEST_HEAD: usize = 4_096;
+/// Bytes in which the kind of a text is looked for.
+pub(crate) const LONGEST_HEAD: usize = 4_096;
 
 /// How a file is compressed.
 #[derive(Debug, Clone, Copy)]
@@ -120,8 +155,8 @@ impl Packing {
         if opening.starts_with(b"PK\x03\x04") || opening.starts_with(b"PK\x05\x06") {
             return Ok(Self::Zip);
         }
-        match OTHERS.into_iter().find(|(first, _)| opening.starts_with(first)) {
-            Some((_, problem)) => Err(not_a_table(origin, format!("it is {problem}"))),
+        match other_format(opening) {
+            Some(problem) => Err(not_a_table(origin, format!("it is {problem}"))),
             None => Ok(Self::None),
         }
     }
@@ -131,15 +166,21 @@ impl Packing {
 pub(crate) fn read_whole(file: &InputFile<'_>) -> Result<Vec<u8>, Error> {
     let origin = file.origin();
     let bytes = at_most(file.content()?, file)?;
-    let packing = Packing::of(&bytes, &origin)?;
+    let packing = Packing::of(beginning(&bytes), &origin)?;
     if matches!(packing, Packing::None) {
         return Ok(bytes);
     }
     unpack(packing, Cursor::new(bytes), &origin, |reader| {
         let bytes = at_most(reader, file)?;
-        Packing::of(&bytes, &origin)?;
+        Packing::of(beginning(&bytes), &origin)?;
         Ok(bytes)
     })
+}
+
+/// The first bytes of a file that has been read, by which it is recognised.
+fn beginning(bytes: &[u8]) -> &[u8] {
+    let most = usize::try_from(OPENING).unwrap_or(usize::MAX);
+    &bytes[..bytes.len().min(most)]
 }
 
 /// All bytes of a reader of a file, which must not be too many.

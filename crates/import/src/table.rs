@@ -9,7 +9,7 @@ use crate::header::{Header, Named};
 use crate::input_file::InputFile;
 use crate::parquet_file::{self, Wanted};
 use crate::row::{Column, Positions, Row};
-use crate::source::{other_json, read_whole};
+use crate::source::{LONGEST_HEAD, is_binary, other_json, read_whole};
 use crate::splitting::UnreadColumns;
 use crate::{Error, Warning};
 
@@ -85,6 +85,11 @@ pub(crate) fn text<'a>(
     if let Err(error) = str::from_utf8(text) {
         let (before, after) = text.split_at(error.valid_up_to());
         let line = before.split(|&byte| byte == b'\n').count() as u64;
+        if is_binary(&text[..text.len().min(LONGEST_HEAD)]) {
+            let problem =
+                "it is no text: write it as CSV or Parquet, or a map as GeoJSON".to_owned();
+            return Err(Error::NotParsed { origin: origin.to_owned(), kind, problem });
+        }
         return Err(wrong_encoding(origin, kind, line, after[0]));
     }
     Ok(text)
