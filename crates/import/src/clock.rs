@@ -1,6 +1,8 @@
 //! Times of day as planners write the begin of a period: `06:00`, `6:00 AM`, `0600`, `06:00-07:00`,
 //! or the hour alone.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use vertifleet_core::Time;
 
 use crate::cell::Cell;
@@ -20,6 +22,37 @@ pub(crate) fn span(cell: Cell<'_>) -> Option<(Time, Option<Time>)> {
         None => cell.shown().parse().ok(),
     };
     Some((begin?, None))
+}
+
+/// The ends of periods that a table states, by their begins.
+#[derive(Debug, Default)]
+pub(crate) struct StatedEnds(BTreeMap<Time, Time>);
+
+impl StatedEnds {
+    /// Adds the end of the period that a cell names, if the cell states it.
+    pub(crate) fn add(&mut self, cell: Cell<'_>) {
+        if let Some((begin, Some(end))) = span(cell) {
+            self.0.insert(begin, end);
+        }
+    }
+
+    /// The first of the periods that begin at `starts` whose stated end is another time than the
+    /// begin of the next one, or than the end of operations: its begin, the stated end, and the
+    /// other time. `end` is the end of operations for a stated end of the last period.
+    pub(crate) fn other(
+        &self,
+        starts: &BTreeSet<Time>,
+        end: impl Fn(Time) -> Time,
+    ) -> Option<(Time, Time, Time)> {
+        let with_next = starts.iter().zip(starts.iter().skip(1).map(Some).chain([None]));
+        let ends = with_next.filter_map(|(begin, next)| {
+            let stated = *self.0.get(begin)?;
+            Some((*begin, stated, next.copied().unwrap_or_else(|| end(stated))))
+        });
+        // A period that begins after operations end has no end among them.
+        let mut ends = ends.filter(|(begin, _, next)| begin < next);
+        ends.find(|(_, stated, next)| stated != next)
+    }
 }
 
 fn span_of(text: &str) -> Option<(Time, Option<Time>)> {

@@ -4,10 +4,11 @@
 //! of the day. A network has one price for each demand period, so a period in which the price
 //! changes has the mean over its time.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use vertifleet_core::{Operations, Time};
 
+use crate::clock::StatedEnds;
 use crate::error::shortened;
 use crate::input_file::InputFile;
 use crate::row::{Column, required};
@@ -25,6 +26,7 @@ pub(crate) struct EnergyPrices {
     origin: String,
     /// Dollars per kWh from each time on.
     from: BTreeMap<Time, f64>,
+    ends: StatedEnds,
 }
 
 impl EnergyPrices {
@@ -32,8 +34,10 @@ impl EnergyPrices {
     pub(crate) fn read(file: &InputFile<'_>, warnings: &mut Vec<Warning>) -> Result<Self, Error> {
         let origin = file.origin();
         let mut rows: BTreeMap<Time, (f64, usize)> = BTreeMap::new();
+        let mut ends = StatedEnds::default();
         table::rows(file, &COLUMNS, warnings, |row| {
             let period = row.time(0)?;
+            ends.add(row.cells[0]);
             let price = row.number(1, 0.0, MOST_USD)?;
             match rows.insert(period, (price, row.position)) {
                 Some((_, before)) => Err(row.given_twice(format!("the period {period}"), before)),
@@ -44,7 +48,7 @@ impl EnergyPrices {
             return Err(Error::Nothing { origin, what: "prices" });
         }
         let from = rows.into_iter().map(|(time, (price, _))| (time, price)).collect();
-        Ok(Self { origin, from })
+        Ok(Self { origin, from, ends })
     }
 
     /// The price of each demand period, dollars per kWh.
@@ -66,6 +70,19 @@ impl EnergyPrices {
         );
         let origin = self.origin.clone();
         (!times.is_empty()).then_some(Warning::EnergyPrices { origin, problem })
+    }
+
+    /// The warning that a price holds until another time than the table states.
+    pub(crate) fn other_end(&self, operations: &Operations) -> Option<Warning> {
+        let starts: BTreeSet<Time> = self.from.keys().copied().collect();
+        // The last price may hold for longer than operations last.
+        let (begin, stated, next) =
+            self.ends.other(&starts, |stated| operations.end.max(stated))?;
+        let problem = format!(
+            "the price of {begin} ends at {stated} in the table, and holds until {next}, when the next one begins or \
+             operations end: give each time a price"
+        );
+        Some(Warning::EnergyPrices { origin: self.origin.clone(), problem })
     }
 
     /// The price at a time.

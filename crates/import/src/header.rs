@@ -3,7 +3,8 @@
 use crate::cell::printable;
 use crate::error::shortened;
 use crate::row::{Column, Need};
-use crate::{Error, Warning, units};
+use crate::units::{self, Likeness};
+use crate::{Error, Warning};
 
 /// The names of the columns of a table, or of the properties of features.
 #[derive(Clone, Copy)]
@@ -29,6 +30,14 @@ impl Named {
     }
 }
 
+/// The columns that were found.
+pub(crate) struct Found {
+    /// The position of each wanted column, if it is there.
+    pub(crate) places: Vec<Option<usize>>,
+    /// The positions of columns that a warning names.
+    pub(crate) named: Vec<usize>,
+}
+
 impl<'a> Header<'a> {
     /// The position of a name. Upper and lower case are the same. A name with underscores is also
     /// one with blanks, as `Trip Start Timestamp`.
@@ -48,7 +57,7 @@ impl<'a> Header<'a> {
         &self,
         wanted: &[Column],
         warnings: &mut Vec<Warning>,
-    ) -> Result<Vec<Option<usize>>, Error> {
+    ) -> Result<Found, Error> {
         let first = |column: &Column| column.names.iter().find_map(|name| self.position(name));
         let places: Vec<Option<usize>> = wanted.iter().map(first).collect();
         let used: Vec<usize> = places.iter().flatten().copied().collect();
@@ -66,10 +75,12 @@ impl<'a> Header<'a> {
         if !one_of.is_empty() && of(Need::OneOf).all(|(_, at)| at.is_none()) {
             return Err(missing(&one_of));
         }
-        for (column, _) in wanted.iter().zip(&places).filter(|(_, at)| at.is_none()) {
-            warnings.extend(self.overlooked(column.names[0], &used));
-        }
-        Ok(places)
+        let absent = wanted.iter().zip(&places).filter(|(_, at)| at.is_none());
+        let absent: Vec<&str> = absent.map(|(column, _)| column.names[0]).collect();
+        let overlooked = self.overlooked(&absent, &used);
+        warnings.extend(overlooked.iter().map(|similar| self.not_read(similar)));
+        let named = overlooked.iter().map(|similar| similar.at).collect();
+        Ok(Found { places, named })
     }
 
     /// Refuses a name that another column has too.
@@ -108,18 +119,15 @@ impl<'a> Header<'a> {
     }
 
     fn hint(&self, missing: &Missing<'_>) -> Option<String> {
-        let found = |wanted: &str| {
-            let similar = self.similar(wanted, missing.used);
-            similar.or_else(|| self.nearest(wanted, missing.used))
-        };
-        let similar =
-            missing.like.iter().copied().find_map(|wanted| Some((wanted, found(wanted)?)));
-        let meant = similar.map(|(wanted, name)| {
-            if !units::differ(wanted, name) {
-                return format!("did you mean {}?", shortened(name, 64));
+        let similar = missing.like.iter().find_map(|wanted| self.similar(wanted, missing.used));
+        let meant = similar.map(|similar| {
+            let name = self.shown(similar.at);
+            match similar.likeness {
+                Likeness::Same => {
+                    format!("did you mean {}?", shortened(&self.names[similar.at], 64))
+                }
+                _ => format!("{name:?} {}", similar.difference(&name)),
             }
-            let (name, step) = (shortened(&printable(name), 64), units::conversion(wanted, name));
-            format!("{name:?} is in another unit: {step}, and name the column {wanted}")
         });
         match (meant, missing.remedy) {
             (Some(meant), Some(remedy)) => Some(format!("{meant} {remedy}")),
@@ -127,84 +135,94 @@ impl<'a> Header<'a> {
         }
     }
 
-    /// The warning that a column is absent and one of a similar name is not read.
-    fn overlooked(&self, column: &str, used: &[usize]) -> Option<Warning> {
+    fn shown(&self, at: usize) -> String {
+        shortened(&printable(&self.names[at]), 64)
+    }
+
+    /// The columns that are not read and have a name like that of one of the absent columns. A
+    /// column that is another quantity than several of them is named once.
+    fn overlooked<'w>(&self, absent: &[&'w str], used: &[usize]) -> Vec<Similar<'w>> {
         // Many short words differ in only two letters, such as name and date.
-        let nearest = || self.nearest(column, used).filter(|_| column.len() > 4);
-        let similar = self.similar(column, used).or_else(nearest)?;
-        let name = shortened(&printable(similar), 64);
-        let one = self.of.one();
-        let problem = if units::differ(column, similar) {
-            let step = units::conversion(column, similar);
-            format!(
-                "the {one} {name:?} is not read, and is in another unit: {step}, and rename it to {column}, if it means that"
-            )
-        } else {
-            format!("the {one} {name:?} is not read: rename it to {column} if it means that")
+        let is_typo = |similar: &Similar<'_>| similar.is_typo && similar.wanted.len() <= 4;
+        let similar = absent.iter().filter_map(|wanted| self.similar(wanted, used));
+        let all: Vec<Similar<'w>> = similar.filter(|similar| !is_typo(similar)).collect();
+        let rank = |similar: &Similar<'_>| match similar.likeness {
+            Likeness::Same => 0,
+            Likeness::Other { is_exact: true } => 1,
+            _ => 2,
         };
-        Some(Warning::Columns { origin: self.origin.to_owned(), problem })
+        let is_best = |similar: &&Similar<'w>| {
+            let mut same = all.iter().filter(|other| other.at == similar.at);
+            same.all(|other| rank(similar) <= rank(other))
+        };
+        all.iter().filter(is_best).copied().collect()
     }
 
-    /// A name that is not used and is the beginning of this one (`fare` for `fare_usd`), has it as
-    /// a word (`number of stands`), or has all its words (`charging_power_kw` for `charger_kw`).
-    /// Names in the same unit come first.
-    fn similar(&self, column: &str, used: &[usize]) -> Option<&'a str> {
-        let begins = |name: &&str| {
-            let beginning = column.get(..name.len());
-            name.len() > 2 && beginning.is_some_and(|begins| begins.eq_ignore_ascii_case(name))
+    /// The warning that a column is absent and one of a similar name is not read.
+    fn not_read(&self, similar: &Similar<'_>) -> Warning {
+        let (one, name, wanted) = (self.of.one(), self.shown(similar.at), similar.wanted);
+        let problem = match similar.likeness {
+            Likeness::Same => {
+                format!("the {one} {name:?} is not read: rename it to {wanted} if it means that")
+            }
+            _ => format!("the {one} {name:?} is not read: it {}", similar.difference(&name)),
         };
-        let has_word = |name: &&str| {
-            let mut words = name.split(|c: char| !c.is_alphanumeric());
-            column.len() > 2 && words.any(|word| word.eq_ignore_ascii_case(column))
-        };
-        let of_column: Vec<String> = units::words(column).collect();
-        let has_all_words = |name: &&str| {
-            let words: Vec<String> = units::words(name).collect();
-            of_column.len() > 1
-                && of_column.iter().all(|word| words.iter().any(|other| are_alike(word, other)))
-        };
-        let free = || self.free(used);
-        let in_unit = || free().filter(|name| !units::differ(column, name));
-        in_unit()
-            .find(begins)
-            .or_else(|| in_unit().find(has_word))
-            .or_else(|| in_unit().find(has_all_words))
-            .or_else(|| free().find(has_all_words))
+        Warning::Columns { origin: self.origin.to_owned(), problem }
     }
 
-    /// The nearest name that is not used, of those in the same unit if any is near.
-    fn nearest(&self, column: &str, used: &[usize]) -> Option<&'a str> {
-        let in_unit = self.free(used).filter(|name| !units::differ(column, name));
-        nearest(column, in_unit).or_else(|| nearest(column, self.free(used))).or_else(|| {
-            let is_beside = |name: &&str| {
-                units::differ(column, name)
-                    && units::words(name).next() == units::words(column).next()
-            };
-            // `lmp_usd_per_mwh` for `price_usd_per_kwh`: the same kind of unit, and another name.
-            let kind: Vec<String> = units::words(column).skip(1).collect();
-            let has_kind = |name: &&str| {
-                let words: Vec<String> = units::words(name).collect();
-                let near = |one: &String| {
-                    words.iter().any(|word| nearest(one, [word.as_str()].into_iter()).is_some())
-                };
-                kind.len() > 1 && kind.iter().all(near)
-            };
-            self.free(used).find(is_beside).or_else(|| self.free(used).find(has_kind))
-        })
-    }
-
-    /// The names that are not used.
-    fn free(&self, used: &[usize]) -> impl Iterator<Item = &'a str> {
-        let names = self.names.iter().enumerate();
-        names.filter(|(at, _)| !used.contains(at)).map(|(_, name)| name.as_str())
+    /// A name that is not used and is like a wanted one. Names for the same come first.
+    fn similar<'w>(&self, wanted: &'w str, used: &[usize]) -> Option<Similar<'w>> {
+        let free = || (0..self.names.len()).filter(|at| !used.contains(at));
+        let similar = |likeness| move |at| Similar { wanted, at, likeness, is_typo: false };
+        if units::quantity(wanted).is_some() {
+            let like = |at: &usize| units::likeness(wanted, &self.names[*at]);
+            let same = free().find(|at| like(at) == Likeness::Same);
+            let other = || free().find(|at| like(at) != Likeness::None);
+            let at = same.or_else(other)?;
+            return Some(similar(like(&at))(at));
+        }
+        let name = |at: &usize| self.names[*at].as_str();
+        let begins = |at: &usize| {
+            let beginning = wanted.get(..name(at).len());
+            let is_begin = |begin: &str| begin.eq_ignore_ascii_case(name(at));
+            name(at).len() > 2 && beginning.is_some_and(is_begin)
+        };
+        let has_words = |at: &usize| {
+            let words: Vec<String> = units::words(name(at)).collect();
+            wanted.len() > 2 && units::words(wanted).all(|word| words.contains(&word))
+        };
+        let found = free().find(begins).or_else(|| free().find(has_words));
+        let typo = || {
+            let nearest = nearest(wanted, free().map(|at| self.names[at].as_str()))?;
+            let at = free().find(|at| name(at) == nearest)?;
+            Some(Similar { is_typo: true, ..similar(Likeness::Same)(at) })
+        };
+        found.map(similar(Likeness::Same)).or_else(typo)
     }
 }
 
-/// Whether two words are the same but for an ending, as charger and charging are.
-fn are_alike(one: &str, other: &str) -> bool {
-    const STEM: usize = 5;
-    let stem = one.get(..STEM).zip(other.get(..STEM));
-    one == other || stem.is_some_and(|(one, other)| one == other)
+/// A column whose name is like that of a wanted one.
+#[derive(Debug, Clone, Copy)]
+struct Similar<'w> {
+    wanted: &'w str,
+    /// The position of the column.
+    at: usize,
+    likeness: Likeness,
+    /// Whether only letters are mistyped.
+    is_typo: bool,
+}
+
+impl Similar<'_> {
+    /// The difference of a column of this name, and the remedy.
+    fn difference(&self, name: &str) -> String {
+        let quantity = units::quantity(self.wanted).unwrap_or_default();
+        let step = units::conversion(self.wanted, name);
+        let step = step.map(|step| format!(" ({step})")).unwrap_or_default();
+        format!(
+            "may be in another unit or mean something else: {} is {quantity}{step}",
+            self.wanted
+        )
+    }
 }
 
 fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {

@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use vertifleet_core::Time;
+use vertifleet_core::{Operations, Time};
 
 use crate::cell::Cell;
-use crate::clock;
+use crate::clock::{self, StatedEnds};
 use crate::input_file::InputFile;
 use crate::row::{Column, Row, required};
-use crate::table;
+use crate::table::{self, Wide};
 use crate::vertiports::Vertiports;
 use crate::{Error, Warning};
 
@@ -37,41 +37,35 @@ pub(crate) struct HourlyDemand {
 }
 
 impl HourlyDemand {
-    /// Reads a table. Operations begin at `start`; where the table begins later, an empty period
-    /// comes first.
+    /// Reads a table. Where it begins later than operations, an empty period comes first.
     pub(crate) fn read(
         file: &InputFile<'_>,
         vertiports: &Vertiports,
-        start: Time,
+        operations: &Operations,
         warnings: &mut Vec<Warning>,
     ) -> Result<Self, Error> {
         let mut cells = Cells::default();
-        match Layout::of(&table::csv_names(file)?, vertiports) {
+        match Layout::of(&table::column_names(file)?, vertiports) {
             Layout::Long => {
                 table::rows(file, &COLUMNS, warnings, |row| cells.add(row, vertiports))?;
             }
             Layout::Periods(wide) => {
-                cells.starts.extend(wide.iter().filter_map(|one| clock::begin(one.cell())));
-                let at: Vec<usize> = wide.iter().map(|one| one.at).collect();
-                table::wide_rows(file, (&COLUMNS[FROM..=TO], &at), warnings, |row| {
-                    wide.iter().zip(row.wide).try_for_each(|(one, value)| {
-                        let values = [one.cell(), row.cells[0], row.cells[1], *value];
-                        cells.add_wide(row, &values, vertiports)
-                    })
+                cells.starts.extend(wide.read.iter().filter_map(|one| clock::begin(one.cell())));
+                wide.rows(file, &COLUMNS[FROM..=TO], warnings, |row, name, value| {
+                    let values = [name, row.cells[0], row.cells[1], value];
+                    cells.add_wide(row, &values, vertiports)
                 })?;
             }
             Layout::Destinations(wide) => {
-                let at: Vec<usize> = wide.iter().map(|one| one.at).collect();
-                table::wide_rows(file, (&COLUMNS[PERIOD..=FROM], &at), warnings, |row| {
+                wide.rows(file, &COLUMNS[PERIOD..=FROM], warnings, |row, name, value| {
                     cells.starts.insert(row.time(0)?);
-                    wide.iter().zip(row.wide).try_for_each(|(one, value)| {
-                        let values = [row.cells[0], row.cells[1], one.cell(), *value];
-                        cells.add_wide(row, &values, vertiports)
-                    })
+                    let values = [row.cells[0], row.cells[1], name, value];
+                    cells.add_wide(row, &values, vertiports)
                 })?;
             }
         }
-        warnings.extend(cells.other_ends(&file.origin()));
+        warnings.extend(cells.other_end(&file.origin(), operations.end));
+        let start = operations.start;
         let Cells { given: cells, mut starts, .. } = cells;
         let origin = || file.origin();
         let Some(&first) = starts.first() else {
@@ -104,12 +98,20 @@ enum Layout {
     /// A row for each period and pair.
     Long,
     /// A column for each period.
-    Periods(Vec<WideColumn>),
+    Periods(WideColumns),
     /// A column for each destination.
-    Destinations(Vec<WideColumn>),
+    Destinations(WideColumns),
 }
 
-/// A column whose name is a value of its rows.
+/// The columns of a wide table.
+struct WideColumns {
+    /// Those whose names are values of their rows.
+    read: Vec<WideColumn>,
+    /// Those of other names. Numbers in them are refused, as their names are then mistyped.
+    others: Vec<WideColumn>,
+}
+
+/// A column by its position and name.
 struct WideColumn {
     at: usize,
     name: String,
@@ -120,32 +122,60 @@ impl WideColumn {
     fn cell(&self) -> Cell<'_> {
         Cell::text(self.name.as_bytes())
     }
+
+    /// Whether it has the sums of its rows.
+    fn is_total(&self) -> bool {
+        self.name.eq_ignore_ascii_case("total")
+    }
+}
+
+impl WideColumns {
+    /// Calls `each` with the name and value of every cell of a table.
+    fn rows(
+        &self,
+        file: &InputFile<'_>,
+        columns: &[Column],
+        warnings: &mut Vec<Warning>,
+        mut each: impl FnMut(&Row<'_>, Cell<'_>, Cell<'_>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let at =
+            |columns: &[WideColumn]| -> Vec<usize> { columns.iter().map(|one| one.at).collect() };
+        let (read, others) = (at(&self.read), at(&self.others));
+        let wide = Wide { read: &read, others: &others };
+        table::wide_rows(file, (columns, wide), warnings, |row| {
+            let (values, others) = row.wide.split_at(read.len());
+            let mut named = self.others.iter().zip(others);
+            if let Some((one, value)) = named.find(|(_, value)| value.number().is_some()) {
+                // The name is wrong, which is in the header.
+                each(&Row { position: 0, ..*row }, one.cell(), *value)?;
+            }
+            let mut named = self.read.iter().zip(values).filter(|(one, _)| !one.is_total());
+            named.try_for_each(|(one, value)| each(row, one.cell(), *value))
+        })
+    }
 }
 
 impl Layout {
     fn of(names: &[String], vertiports: &Vertiports) -> Self {
-        let has =
-            |at: usize| names.iter().any(|name| name.eq_ignore_ascii_case(COLUMNS[at].names[0]));
-        let columns = |is_one: &dyn Fn(&str) -> bool| -> Vec<WideColumn> {
-            let chosen = names.iter().enumerate().filter(|(_, name)| is_one(name));
-            chosen.map(|(at, name)| WideColumn { at, name: name.clone() }).collect()
-        };
-        if has(PASSENGERS) || !has(FROM) {
+        let is = |name: &str, at: usize| name.eq_ignore_ascii_case(COLUMNS[at].names[0]);
+        let has = |at: usize| names.iter().any(|name| is(name, at));
+        if has(PASSENGERS) || !has(FROM) || has(PERIOD) == has(TO) {
             return Self::Long;
         }
-        let is_time = |name: &str| clock::begin(Cell::text(name.as_bytes())).is_some();
-        let is_destination =
-            |name: &str| vertiports.find(name, Cell::text(name.as_bytes()).whole()).is_some();
-        let wide = match (has(PERIOD), has(TO)) {
-            (false, true) => Self::Periods(columns(&is_time)),
-            (true, false) => Self::Destinations(columns(&is_destination)),
-            _ => Self::Long,
+        let by_period = has(TO);
+        let is_value = |one: &WideColumn| {
+            let vertiport = || vertiports.find(&one.name, one.cell().whole());
+            if by_period { clock::begin(one.cell()).is_some() } else { vertiport().is_some() }
         };
-        match &wide {
-            Self::Periods(columns) | Self::Destinations(columns) if columns.is_empty() => {
-                Self::Long
-            }
-            _ => wide,
+        let is_wide = |name: &str| !name.is_empty() && !(0..COLUMNS.len()).any(|at| is(name, at));
+        let wide = names.iter().enumerate().filter(|(_, name)| is_wide(name));
+        let wide = wide.map(|(at, name)| WideColumn { at, name: name.clone() });
+        let (read, others): (Vec<WideColumn>, Vec<WideColumn>) =
+            wide.partition(|one| is_value(one) || one.is_total());
+        match (read.iter().any(is_value), by_period) {
+            (false, _) => Self::Long,
+            (true, true) => Self::Periods(WideColumns { read, others }),
+            (true, false) => Self::Destinations(WideColumns { read, others }),
         }
     }
 }
@@ -156,8 +186,7 @@ struct Cells {
     /// The value and position of each cell that the table gives.
     given: HashMap<(Time, (usize, usize)), (f64, usize)>,
     starts: BTreeSet<Time>,
-    /// The ends of periods that the table states.
-    ends: BTreeMap<Time, Time>,
+    ends: StatedEnds,
 }
 
 impl Cells {
@@ -171,9 +200,7 @@ impl Cells {
             return Err(row.given_twice(what, before));
         }
         self.starts.insert(period);
-        if let Some((begin, Some(end))) = clock::span(row.cells[PERIOD]) {
-            self.ends.insert(begin, end);
-        }
+        self.ends.add(row.cells[PERIOD]);
         Ok(())
     }
 
@@ -195,16 +222,15 @@ impl Cells {
         self.add(&row, vertiports)
     }
 
-    /// The warning that a period lasts until another time than the table states.
-    fn other_ends(&self, origin: &str) -> Option<Warning> {
-        let nexts = self.starts.iter().zip(self.starts.iter().skip(1));
-        let (begin, next, end) = nexts
-            .filter_map(|(begin, next)| Some((begin, next, self.ends.get(begin)?)))
-            .find(|(_, next, end)| next != end)?;
+    /// The warning that a period lasts until another time than the table states. The last one lasts
+    /// until operations end.
+    fn other_end(&self, origin: &str, end: Time) -> Option<Warning> {
+        let (begin, stated, next) = self.ends.other(&self.starts, |_| end)?;
         Some(Warning::Demand {
             origin: origin.to_owned(),
             problem: format!(
-                "the period {begin} ends at {end} in the table, and lasts until the next one, {next}: give each hour a row"
+                "the period {begin} ends at {stated} in the table, and lasts until {next}, when the next one begins or \
+                 operations end: give each hour a row, with 0 passengers where there are none"
             ),
         })
     }

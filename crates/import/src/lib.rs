@@ -30,13 +30,13 @@ mod parquet_file;
 mod parquet_meaning;
 mod row;
 mod source;
-mod splitting;
 mod strict_json;
 mod table;
 mod tariffs;
 mod trip_times;
 mod trips;
 mod units;
+mod unread;
 mod vertiports;
 mod warning;
 mod zones;
@@ -151,8 +151,7 @@ pub fn import(
     stop.check()?;
     let (demand, source, account) = match &request.demand {
         Demand::Table(path) => {
-            let demand =
-                HourlyDemand::read(&file(path)?, &vertiports, operations.start, &mut warnings)?;
+            let demand = HourlyDemand::read(&file(path)?, &vertiports, operations, &mut warnings)?;
             let source = demand_comments::of_table(path, &demand);
             (demand, source, None)
         }
@@ -176,6 +175,7 @@ pub fn import(
     warnings.extend(demand.warnings(&request.demand, request.base));
     if let Some(prices) = &text.energy_prices {
         warnings.extend(prices.what.warning(&demand.periods, operations));
+        warnings.extend(prices.what.other_end(operations));
     }
     progress(1.0);
     let inherited = text.inherited()?;

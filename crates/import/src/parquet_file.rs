@@ -19,7 +19,7 @@ use crate::Error;
 use crate::cell::Cell;
 use crate::error::shortened;
 use crate::input_file::InputFile;
-use crate::parquet_meaning::{Meaning, written};
+use crate::parquet_meaning::{Meaning, Values, written};
 
 /// The bytes with which a Parquet file begins.
 pub(crate) const MAGIC: &[u8] = b"PAR1";
@@ -44,8 +44,7 @@ pub(crate) struct ParquetFile {
 pub(crate) struct Wanted {
     /// Its position in [`ParquetFile::columns`].
     pub(crate) column: usize,
-    /// Whether it must hold dates with times, and not numbers, texts or times of day.
-    pub(crate) moment: bool,
+    pub(crate) values: Values,
 }
 
 impl ParquetFile {
@@ -87,7 +86,7 @@ impl ParquetFile {
         guarded(&self.origin, || {
             for wanted in wanted.iter().flatten() {
                 let column = schema.column(wanted.column);
-                Meaning::of(&column, wanted.moment)
+                Meaning::of(&column, wanted.values)
                     .map_err(|error| error.in_column(&self.origin, column.name()))?;
                 self.check_compression(wanted.column, column.name())?;
             }
@@ -110,6 +109,12 @@ impl ParquetFile {
         Err(Error::NotParsed { origin: self.origin.clone(), kind: "Parquet", problem })
     }
 
+    /// A column whose values are shown whatever their type, if they can be unpacked.
+    pub(crate) fn any_values(&self, column: usize) -> Option<Wanted> {
+        let can_be_unpacked = self.check_compression(column, "").is_ok();
+        can_be_unpacked.then_some(Wanted { column, values: Values::Any })
+    }
+
     /// Calls `each` with every row of a row group: one cell for each of the wanted columns. `pause`
     /// is called before each batch of rows and may end the reading.
     pub(crate) fn rows(
@@ -121,7 +126,7 @@ impl ParquetFile {
     ) -> Result<(), Error> {
         self.check(wanted)?;
         let (mut columns, mut left) = guarded(&self.origin, || self.batched(group, wanted))?;
-        let count = columns.len().min(MOST_COLUMNS);
+        let count = columns.len();
         while left > 0 {
             pause()?;
             let rows = left.min(BATCH);
@@ -134,11 +139,17 @@ impl ParquetFile {
                     .map_err(|error| self.damaged(&error))
             })?;
             for row in 0..rows {
-                let mut cells = [Cell::Missing; MOST_COLUMNS];
+                let (mut few, mut many) = ([Cell::Missing; FEW_COLUMNS], Vec::new());
+                let cells = if count <= FEW_COLUMNS {
+                    &mut few[..count]
+                } else {
+                    many.resize(count, Cell::Missing);
+                    &mut many[..]
+                };
                 for (cell, column) in cells.iter_mut().zip(&mut columns) {
                     *cell = column.as_mut().map_or(Cell::Missing, |column| column.next(row));
                 }
-                each(&cells[..count])?;
+                each(cells)?;
             }
             left -= rows;
         }
@@ -153,9 +164,9 @@ impl ParquetFile {
     ) -> Result<(Vec<Option<BatchedColumn>>, usize), Error> {
         let group = self.reader.get_row_group(group).map_err(|error| self.damaged(&error))?;
         let schema = self.reader.metadata().file_metadata().schema_descr();
-        let batched = |Wanted { column, moment }| {
+        let batched = |Wanted { column, values }| {
             let descriptor = schema.column(column);
-            let meaning = Meaning::of(&descriptor, moment)
+            let meaning = Meaning::of(&descriptor, values)
                 .map_err(|error| error.in_column(&self.origin, descriptor.name()))?;
             let reader = group.get_column_reader(column).map_err(|error| self.damaged(&error))?;
             Ok(BatchedColumn::new(reader, &descriptor, meaning))
@@ -170,11 +181,11 @@ impl ParquetFile {
     }
 }
 
-/// The most columns that any caller asks for.
-const MOST_COLUMNS: usize = 8;
+/// Columns of trip records, whose cells need no memory of their own.
+const FEW_COLUMNS: usize = 8;
 
 /// The typed reader of a column with a batch of its values, packed without the missing ones.
-enum Values {
+enum Typed {
     Bool(ColumnReaderImpl<BoolType>, Vec<bool>),
     Int32(ColumnReaderImpl<Int32Type>, Vec<i32>),
     Int64(ColumnReaderImpl<Int64Type>, Vec<i64>),
@@ -187,7 +198,7 @@ enum Values {
 
 /// A column that is read in batches.
 struct BatchedColumn {
-    values: Values,
+    values: Typed,
     meaning: Meaning,
     /// The level of rows that have a value; 0 if every row has one.
     present: i16,
@@ -199,16 +210,14 @@ struct BatchedColumn {
 impl BatchedColumn {
     fn new(reader: ColumnReader, descriptor: &ColumnDescriptor, meaning: Meaning) -> Self {
         let values = match reader {
-            ColumnReader::BoolColumnReader(reader) => Values::Bool(reader, Vec::new()),
-            ColumnReader::Int32ColumnReader(reader) => Values::Int32(reader, Vec::new()),
-            ColumnReader::Int64ColumnReader(reader) => Values::Int64(reader, Vec::new()),
-            ColumnReader::Int96ColumnReader(reader) => Values::Int96(reader, Vec::new()),
-            ColumnReader::FloatColumnReader(reader) => Values::Float(reader, Vec::new()),
-            ColumnReader::DoubleColumnReader(reader) => Values::Double(reader, Vec::new()),
-            ColumnReader::ByteArrayColumnReader(reader) => Values::Bytes(reader, Vec::new()),
-            ColumnReader::FixedLenByteArrayColumnReader(reader) => {
-                Values::Fixed(reader, Vec::new())
-            }
+            ColumnReader::BoolColumnReader(reader) => Typed::Bool(reader, Vec::new()),
+            ColumnReader::Int32ColumnReader(reader) => Typed::Int32(reader, Vec::new()),
+            ColumnReader::Int64ColumnReader(reader) => Typed::Int64(reader, Vec::new()),
+            ColumnReader::Int96ColumnReader(reader) => Typed::Int96(reader, Vec::new()),
+            ColumnReader::FloatColumnReader(reader) => Typed::Float(reader, Vec::new()),
+            ColumnReader::DoubleColumnReader(reader) => Typed::Double(reader, Vec::new()),
+            ColumnReader::ByteArrayColumnReader(reader) => Typed::Bytes(reader, Vec::new()),
+            ColumnReader::FixedLenByteArrayColumnReader(reader) => Typed::Fixed(reader, Vec::new()),
         };
         let present = descriptor.max_def_level();
         Self { values, meaning, present, levels: Vec::new(), next: 0 }
@@ -219,14 +228,14 @@ impl BatchedColumn {
         self.next = 0;
         let levels = &mut self.levels;
         let (read, values) = match &mut self.values {
-            Values::Bool(reader, values) => fill(reader, values, levels, rows),
-            Values::Int32(reader, values) => fill(reader, values, levels, rows),
-            Values::Int64(reader, values) => fill(reader, values, levels, rows),
-            Values::Int96(reader, values) => fill(reader, values, levels, rows),
-            Values::Float(reader, values) => fill(reader, values, levels, rows),
-            Values::Double(reader, values) => fill(reader, values, levels, rows),
-            Values::Bytes(reader, values) => fill(reader, values, levels, rows),
-            Values::Fixed(reader, values) => fill(reader, values, levels, rows),
+            Typed::Bool(reader, values) => fill(reader, values, levels, rows),
+            Typed::Int32(reader, values) => fill(reader, values, levels, rows),
+            Typed::Int64(reader, values) => fill(reader, values, levels, rows),
+            Typed::Int96(reader, values) => fill(reader, values, levels, rows),
+            Typed::Float(reader, values) => fill(reader, values, levels, rows),
+            Typed::Double(reader, values) => fill(reader, values, levels, rows),
+            Typed::Bytes(reader, values) => fill(reader, values, levels, rows),
+            Typed::Fixed(reader, values) => fill(reader, values, levels, rows),
         }?;
         let present = if self.present == 0 {
             read
@@ -248,14 +257,14 @@ impl BatchedColumn {
         let at = self.next;
         self.next += 1;
         match &self.values {
-            Values::Bool(_, values) => Cell::Text(if values[at] { b"true" } else { b"false" }),
-            Values::Int32(_, values) => self.meaning.of_whole(values[at].into()),
-            Values::Int64(_, values) => self.meaning.of_whole(values[at]),
-            Values::Int96(_, values) => self.meaning.of_seconds(values[at].to_seconds()),
-            Values::Float(_, values) => Cell::Number(written(values[at])),
-            Values::Double(_, values) => Cell::Number(values[at]),
-            Values::Bytes(_, values) => self.meaning.of_bytes(values[at].data()),
-            Values::Fixed(_, values) => self.meaning.of_bytes(values[at].data()),
+            Typed::Bool(_, values) => Cell::Text(if values[at] { b"true" } else { b"false" }),
+            Typed::Int32(_, values) => self.meaning.of_whole(values[at].into()),
+            Typed::Int64(_, values) => self.meaning.of_whole(values[at]),
+            Typed::Int96(_, values) => self.meaning.of_seconds(values[at].to_seconds()),
+            Typed::Float(_, values) => Cell::Number(written(values[at])),
+            Typed::Double(_, values) => Cell::Number(values[at]),
+            Typed::Bytes(_, values) => self.meaning.of_bytes(values[at].data()),
+            Typed::Fixed(_, values) => self.meaning.of_bytes(values[at].data()),
         }
     }
 }

@@ -9,6 +9,17 @@ use crate::cell::Cell;
 use crate::date_time::{DAY_S, Moment, Stamp};
 use crate::error::shortened;
 
+/// The values that a column must hold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Values {
+    /// Numbers, texts or times of day.
+    Plain,
+    /// Dates with times.
+    Moments,
+    /// Values of any type, to be shown.
+    Any,
+}
+
 /// The meaning of the values of a column.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Meaning {
@@ -17,6 +28,8 @@ pub(crate) enum Meaning {
     /// A date and time: a count of units since 1970, `per_second` to the second, of local clocks or
     /// (`utc`) of UTC.
     Time { per_second: i64, utc: bool },
+    /// A date: a count of days since 1970.
+    Date,
     /// A time of day: a count since midnight.
     TimeOfDay { per_second: i64 },
     /// A whole number, the last `scale` digits of which are after the decimal point.
@@ -38,9 +51,16 @@ impl WrongType {
 }
 
 impl Meaning {
-    /// The meaning of a column's values, if they can be used: as dates with times, or as numbers,
-    /// texts or times of day.
-    pub(crate) fn of(column: &ColumnDescriptor, moment: bool) -> Result<Self, WrongType> {
+    /// The meaning of a column's values, if the column can hold the wanted ones.
+    pub(crate) fn of(column: &ColumnDescriptor, wanted: Values) -> Result<Self, WrongType> {
+        if wanted == Values::Any {
+            let is_date = matches!(column.logical_type_ref(), Some(LogicalType::Date))
+                || column.converted_type() == ConvertedType::DATE;
+            let usual =
+                Self::of(column, Values::Plain).or_else(|_| Self::of(column, Values::Moments));
+            return Ok(if is_date { Self::Date } else { usual.unwrap_or(Self::Plain) });
+        }
+        let moment = wanted == Values::Moments;
         let logical = column.logical_type_ref();
         let plain = match (column.physical_type(), logical, column.converted_type()) {
             (Type::INT64, Some(LogicalType::Timestamp(time)), _) => {
@@ -107,6 +127,7 @@ impl Meaning {
         match self {
             Self::Plain => Cell::Whole(value),
             Self::Time { per_second, .. } => self.of_seconds(value.div_euclid(per_second)),
+            Self::Date => self.of_seconds(value.saturating_mul(DAY_S.into())),
             Self::TimeOfDay { per_second } => {
                 let second = u32::try_from(value.div_euclid(per_second)).ok();
                 second.filter(|second| *second < DAY_S).map_or(Cell::Missing, Cell::TimeOfDay)

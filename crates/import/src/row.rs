@@ -55,6 +55,26 @@ pub(crate) enum Positions<'a> {
     Rows,
 }
 
+impl Positions<'_> {
+    /// The place at a position, in words; that of the names of the columns at 0.
+    ///
+    /// Lines are counted here, because the parser's own count lags behind where it skips empty
+    /// lines or the second half of a CR LF.
+    pub(crate) fn place(self, position: usize) -> String {
+        match self {
+            Self::Lines(text) => {
+                let begin = position.min(text.len());
+                let skipped = text[begin..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n'));
+                let begin = begin + skipped.count();
+                format!("line {}", text[..begin].split(|&byte| byte == b'\n').count())
+            }
+            Self::Features | Self::Rows if position == 0 => "the names of its columns".to_owned(),
+            Self::Features => format!("feature {position}"),
+            Self::Rows => format!("row {position}"),
+        }
+    }
+}
+
 /// A row or feature.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Row<'a> {
@@ -64,7 +84,7 @@ pub(crate) struct Row<'a> {
     pub(crate) columns: &'a [Column],
     /// One for each column.
     pub(crate) cells: &'a [Cell<'a>],
-    /// The values of the columns that a wide table has instead of several rows.
+    /// The values of the columns whose names are values of their rows.
     pub(crate) wide: &'a [Cell<'a>],
 }
 
@@ -75,20 +95,8 @@ impl Row<'_> {
     }
 
     /// The place of the row at this position in the same file, in words.
-    ///
-    /// Lines are counted here, because the parser's own count lags behind where it skips empty
-    /// lines or the second half of a CR LF.
     pub(crate) fn place_of(&self, position: usize) -> String {
-        match self.positions {
-            Positions::Lines(text) => {
-                let begin = position.min(text.len());
-                let skipped = text[begin..].iter().take_while(|byte| matches!(byte, b'\r' | b'\n'));
-                let begin = begin + skipped.count();
-                format!("line {}", text[..begin].split(|&byte| byte == b'\n').count())
-            }
-            Positions::Features => format!("feature {position}"),
-            Positions::Rows => format!("row {position}"),
-        }
+        self.positions.place(position)
     }
 
     /// Whether the row has a value in this column.

@@ -5,47 +5,55 @@ use bytes::Bytes;
 use csv::ByteRecord;
 
 use crate::cell::Cell;
-use crate::header::{Header, Named};
+use crate::header::{Found, Header, Named};
 use crate::input_file::InputFile;
-use crate::parquet_file::{self, Wanted};
+use crate::parquet_file::{self, ParquetFile, Wanted};
+use crate::parquet_meaning::Values;
 use crate::row::{Column, Positions, Row};
 use crate::source::{LONGEST_HEAD, is_binary, other_json, read_whole};
-use crate::splitting::UnreadColumns;
+use crate::unread::UnreadColumns;
 use crate::{Error, Warning};
 
+/// Columns whose names are values of their rows, by their positions.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Wide<'a> {
+    /// Those that are read.
+    pub(crate) read: &'a [usize],
+    /// Those that are only looked at.
+    pub(crate) others: &'a [usize],
+}
+
 /// Calls `each` with every row of a table. Columns may have any order, and others are ignored;
-/// `warnings` has those of them that look like one that is read.
+/// `warnings` names those of them that probably should not be.
 pub(crate) fn rows(
     file: &InputFile<'_>,
     columns: &[Column],
     warnings: &mut Vec<Warning>,
-    mut each: impl FnMut(&Row<'_>) -> Result<(), Error>,
+    each: impl FnMut(&Row<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let origin = file.origin();
-    let bytes = read_whole(file)?;
-    if parquet_file::is_parquet(file, &bytes) {
-        return parquet_rows(bytes.into(), &origin, columns, warnings, &mut each);
-    }
-    csv_rows(text(&bytes, "CSV", &origin)?, &origin, (columns, &[]), warnings, &mut each)
+    wide_rows(file, (columns, Wide::default()), warnings, each)
 }
 
-/// Calls `each` with every row of a CSV table that has, instead of several rows, the columns at
-/// some positions, whose values are in [`Row::wide`].
+/// Calls `each` with every row of a table that has, instead of several rows, some columns, whose
+/// values are in [`Row::wide`].
 pub(crate) fn wide_rows(
     file: &InputFile<'_>,
-    columns: (&[Column], &[usize]),
+    columns: (&[Column], Wide<'_>),
     warnings: &mut Vec<Warning>,
     mut each: impl FnMut(&Row<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let (origin, bytes) = (file.origin(), read_whole(file)?);
+    if parquet_file::is_parquet(file, &bytes) {
+        return parquet_rows(bytes.into(), &origin, columns, warnings, &mut each);
+    }
     csv_rows(text(&bytes, "CSV", &origin)?, &origin, columns, warnings, &mut each)
 }
 
-/// The names of the columns of a CSV table; none if the table is Parquet.
-pub(crate) fn csv_names(file: &InputFile<'_>) -> Result<Vec<String>, Error> {
+/// The names of the columns of a table.
+pub(crate) fn column_names(file: &InputFile<'_>) -> Result<Vec<String>, Error> {
     let (origin, bytes) = (file.origin(), read_whole(file)?);
     if parquet_file::is_parquet(file, &bytes) {
-        return Ok(Vec::new());
+        return Ok(ParquetFile::open(Bytes::from(bytes), &origin)?.columns().to_vec());
     }
     let text = text(&bytes, "CSV", &origin)?;
     let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text);
@@ -108,10 +116,63 @@ pub(crate) fn without_mark(text: &[u8]) -> &[u8] {
     text.strip_prefix("\u{feff}".as_bytes()).unwrap_or(text)
 }
 
+/// The columns of a table, in the order of the cells of its rows.
+struct Plan<'a> {
+    origin: &'a str,
+    columns: &'a [Column],
+    /// The positions of the columns, if the table has them.
+    found: Found,
+    wide: Wide<'a>,
+    unread: UnreadColumns<'a>,
+}
+
+impl<'a> Plan<'a> {
+    fn new(
+        header: Header<'a>,
+        (columns, wide): (&'a [Column], Wide<'a>),
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Self, Error> {
+        let found = header.find(columns, warnings)?;
+        let read: Vec<usize> = found.places.iter().flatten().chain(wide.read).copied().collect();
+        let unread = UnreadColumns::of(header.names, &read, columns);
+        Ok(Self { origin: header.origin, columns, found, wide, unread })
+    }
+
+    /// The positions of the columns that are read.
+    fn read(&self) -> impl Iterator<Item = Option<usize>> {
+        self.found.places.iter().copied().chain(self.wide.read.iter().copied().map(Some))
+    }
+
+    /// The positions of the columns that are only looked at.
+    fn shown(&self) -> impl Iterator<Item = usize> {
+        self.wide.others.iter().copied().chain(self.unread.positions())
+    }
+
+    /// Calls `each` with a row.
+    fn row(
+        &mut self,
+        cells: &[Cell<'_>],
+        (positions, position): (Positions<'_>, usize),
+        each: &mut dyn FnMut(&Row<'_>) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let (cells, wide) = cells.split_at(self.found.places.len());
+        let (wide, unread) = wide.split_at(self.wide.read.len() + self.wide.others.len());
+        let (origin, columns) = (self.origin, self.columns);
+        self.unread.add(unread);
+        each(&Row { origin, positions, position, columns, cells, wide })
+            .map_err(|error| self.unread.explained(error))
+    }
+
+    /// The warning of the columns that are not read.
+    fn warning(&self) -> Option<Warning> {
+        self.unread.warning(self.origin, &self.found.named)
+    }
+}
+
 fn csv_rows(
     csv: &[u8],
     origin: &str,
-    (columns, wide): (&[Column], &[usize]),
+    columns: (&[Column], Wide<'_>),
     warnings: &mut Vec<Warning>,
     each: &mut dyn FnMut(&Row<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
@@ -124,60 +185,53 @@ fn csv_rows(
     };
     next(&mut record)?;
     let names = names(&record);
-    let found = Header { origin, names: &names, of: Named::Columns }.find(columns, warnings)?;
-    let mut unread = UnreadColumns::of(&names, (&found, wide), columns);
+    let header = Header { origin, names: &names, of: Named::Columns };
+    let mut plan = Plan::new(header, columns, warnings)?;
+    let all: Vec<Option<usize>> = plan.read().chain(plan.shown().map(Some)).collect();
     while next(&mut record)? {
         // Spreadsheets write rows of empty cells below a table.
         if record.iter().all(|cell| cell.trim_ascii().is_empty()) {
             continue;
         }
-        let value =
-            |at: &Option<usize>| at.and_then(|at| record.get(at)).map_or(Cell::Missing, Cell::text);
-        let cells: Vec<Cell<'_>> = found.iter().map(value).collect();
-        let wide: Vec<Cell<'_>> = wide.iter().map(|at| value(&Some(*at))).collect();
         let begin = record.position().map_or(0, csv::Position::byte);
-        let row = Row {
-            origin,
-            positions: Positions::Lines(csv),
-            position: usize::try_from(begin).unwrap_or(usize::MAX),
-            columns,
-            cells: &cells,
-            wide: &wide,
-        };
+        let place = (Positions::Lines(csv), usize::try_from(begin).unwrap_or(usize::MAX));
         if record.iter().skip(names.len()).any(|cell| !cell.trim_ascii().is_empty()) {
             return Err(wrong(format!(
                 "{} has {} values, and the header has {} columns: write decimals with a point, and put values with \
                  commas in quotes",
-                row.place(),
+                place.0.place(place.1),
                 record.len(),
                 names.len(),
             )));
         }
-        unread.add(|at| record.get(at));
-        each(&row).map_err(|error| unread.explained(error))?;
+        let value =
+            |at: &Option<usize>| at.and_then(|at| record.get(at)).map_or(Cell::Missing, Cell::text);
+        let cells: Vec<Cell<'_>> = all.iter().map(value).collect();
+        plan.row(&cells, place, each)?;
     }
-    warnings.extend(unread.warnings(origin));
+    warnings.extend(plan.warning());
     Ok(())
 }
 
 fn parquet_rows(
     bytes: Bytes,
     origin: &str,
-    columns: &[Column],
+    columns: (&[Column], Wide<'_>),
     warnings: &mut Vec<Warning>,
     each: &mut dyn FnMut(&Row<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let file = parquet_file::ParquetFile::open(bytes, origin)?;
+    let file = ParquetFile::open(bytes, origin)?;
     let header = Header { origin, names: file.columns(), of: Named::Columns };
-    let found = header.find(columns, warnings)?;
-    let wanted = found.iter().map(|at| at.map(|column| Wanted { column, moment: false }));
-    let wanted: Vec<Option<Wanted>> = wanted.collect();
+    let mut plan = Plan::new(header, columns, warnings)?;
+    let read = plan.read().map(|at| at.map(|column| Wanted { column, values: Values::Plain }));
+    let all: Vec<Option<Wanted>> = read.chain(plan.shown().map(|at| file.any_values(at))).collect();
     let mut position = 0;
     for group in 0..file.groups() {
-        file.rows(group, &wanted, &|| Ok(()), &mut |cells| {
+        file.rows(group, &all, &|| Ok(()), &mut |cells| {
             position += 1;
-            each(&Row { origin, positions: Positions::Rows, position, columns, cells, wide: &[] })
+            plan.row(cells, (Positions::Rows, position), each)
         })?;
     }
+    warnings.extend(plan.warning());
     Ok(())
 }

@@ -10,8 +10,8 @@ pub enum Warning {
     /// V718 strange demand in data of your own (warning). A demand that is imported has no
     /// passengers at all; or one of its periods lasts longer than others, as a period lasts until
     /// the next one that the table has, or until operations end; or the table states another end of
-    /// a period than the next one's begin; or passengers want to fly outside of the hours of
-    /// operation. This is a warning: the network is made all the same.
+    /// a period than that; or passengers want to fly outside of the hours of operation. This is a
+    /// warning: the network is made all the same.
     ///
     /// Fix: look at the rows. Give each hour a row, with 0 passengers where there are none. Change
     /// `[operations]` in the new file if your vertiports are open at other times than those of the
@@ -37,9 +37,10 @@ pub enum Warning {
 
     /// V720 price that changes within a demand period (warning). A network has one price of
     /// electricity for each demand period, and the table of an import changes it within one. Such a
-    /// period has the mean over its time. This is a warning: the network is made all the same.
+    /// period has the mean over its time. Or the table states another end of a price than the begin
+    /// of the next one. This is a warning: the network is made all the same.
     ///
-    /// Fix: give the demand in periods that begin when the price changes.
+    /// Fix: give the demand in periods that begin when the price changes, and each time a price.
     EnergyPrices {
         /// The file.
         origin: String,
@@ -49,11 +50,12 @@ pub enum Warning {
 
     /// V740 column that is not read (warning). A file does not have a column or property that is
     /// read, and has one of a similar name that is not read, such as `charger` for `chargers`, or
-    /// one in another unit. Or a table has a column that is not read and by which its rows are
-    /// split, such as `scenario` or `month`, with several values. This is a warning: the network is
-    /// made all the same.
+    /// one in another unit. Or a table of demand, fares or prices has columns that are not read and
+    /// have several values, and they may split it, as `scenario` or `month` do. This is a warning:
+    /// the network is made all the same.
     ///
-    /// Fix: rename it if it means that, convert its numbers, or keep the rows of one value.
+    /// Fix: rename it if it means that, convert its numbers, keep the rows of one value, or remove
+    /// the column.
     Columns {
         /// The file.
         origin: String,

@@ -12,6 +12,7 @@ use super::signs::{Position, RowText};
 use crate::Error;
 use crate::input_file::InputFile;
 use crate::parquet_file::{ParquetFile, Wanted};
+use crate::parquet_meaning::Values;
 use crate::zones::Zones;
 
 /// Rows after which a reader reports how far it has come.
@@ -82,7 +83,8 @@ fn wanted(layout: &Layout, reading: &Reading<'_>) -> [Option<Wanted>; 6] {
     let moments = !reading.tallies.rules.times.are_numbers();
     slot_columns(layout).map(|column| {
         slot += 1;
-        column.map(|column| Wanted { column, moment: slot == 1 && moments })
+        let values = if slot == 1 && moments { Values::Moments } else { Values::Plain };
+        column.map(|column| Wanted { column, values })
     })
 }
 

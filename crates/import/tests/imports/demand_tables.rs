@@ -59,11 +59,28 @@ fn wide_tables_keep_the_rules_of_others() {
         ("from,to,total\nJRB,JFK,1\n", 702),
         ("period,from,Boston\n6,JRB,1\n", 702),
         ("from,to,06:00,40:00\nJRB,JFK,1,2\n", 703),
+        ("from,to,06:00,8h\nJRB,JFK,1,2\n", 703),
+        ("from,to,06:00,25:61\nJRB,JFK,1,0\n", 703),
+        ("from,to,distance_mi,06:00\nJRB,JFK,12.5,1\n", 703),
+        ("period,from,JRB,JFX\n6,EWR,1,99\n", 705),
+        ("period,from,JRB,JFX\n6,EWR,1,\n7,EWR,1,99\n", 705),
     ] {
         let error = run_table(&Folder::new(), table).expect_err(table);
         assert_eq!(error.code().0, code, "{table}: {error}");
         assert!(error.to_string().contains("demand.csv"), "{error}");
     }
+}
+
+#[test]
+fn a_mistyped_name_of_a_wide_column_is_named_in_its_header() {
+    let error = run_table(&Folder::new(), "period,from,JRB,JFX\n6,EWR,1,99\n").expect_err("JFX");
+    assert!(error.to_string().contains("demand.csv: line 1: to names \"JFX\""), "{error}");
+    assert_eq!(error.hint(), Some("did you mean JFK?"));
+    // Texts are no passengers, and a total is no vertiport.
+    let table = "period,from,JRB,JFK,total,note\n6,EWR,1,,1,a\n7,EWR,1,2,3,b\n";
+    let found = warnings(table);
+    assert!(found.iter().any(|one| one.contains("the column \"note\"")), "{found:?}");
+    assert!(!found.iter().any(|one| one.contains("total")), "{found:?}");
 }
 
 #[test]
@@ -79,33 +96,61 @@ fn a_period_out_of_range_is_named_with_its_file_and_line() {
 }
 
 #[test]
-fn a_stated_end_that_the_next_period_contradicts_brings_a_warning() {
-    let table = "period,from,to,passengers\n06:00-09:00,JRB,JFK,14\n07:00-22:00,JRB,JFK,9\n";
-    let found = warnings(table);
-    assert!(
-        found.iter().any(|one| one.contains("06:00:00 ends at 09:00:00 in the table")),
-        "{found:?}"
-    );
+fn a_stated_end_that_the_next_period_or_the_end_of_operations_contradicts_brings_a_warning() {
+    let header = "period,from,to,passengers";
+    for (rows, stated) in [
+        ("06:00-09:00,JRB,JFK,14\n07:00-22:00,JRB,JFK,9", Some("06:00:00 ends at 09:00:00")),
+        ("06:00-07:00,JRB,JFK,14", Some("06:00:00 ends at 07:00:00")),
+        ("06:00-14:00,JRB,JFK,14\n14:00-20:00,JRB,JFK,9", Some("14:00:00 ends at 20:00:00")),
+        ("06:00-14:00,JRB,JFK,14\n14:00-22:00,JRB,JFK,9", None),
+        ("06:00-22:00,JRB,JFK,14\n22:00-23:00,JRB,JFK,0", None),
+    ] {
+        let found = warnings(&format!("{header}\n{rows}\n"));
+        let is_named = |one: &String| one.starts_with("V718 ") && one.contains("in the table");
+        assert_eq!(found.iter().any(is_named), stated.is_some(), "{rows}: {found:?}");
+        assert!(stated.is_none_or(|stated| found.concat().contains(stated)), "{found:?}");
+    }
 }
 
+const NAMES: &str = "date scenario day_type Month travel_date trip_date forecast_year user_class trip_purpose is_weekend holiday tod \
+                     model_run run version aircraft_type operator percentile ScenarioName note";
+
 #[test]
-fn columns_that_split_a_demand_are_named() {
-    for column in ["date", "scenario", "day_type", "Month", "weekday"] {
-        let table = format!(
-            "period,from,to,passengers,{column},note\n6,JRB,JFK,14,one,a\n7,JRB,JFK,9,two,b\n"
-        );
+fn columns_that_may_split_a_demand_are_named() {
+    for column in NAMES.split_whitespace() {
+        let table =
+            format!("period,from,to,passengers,{column}\n6,JRB,JFK,14,one\n7,JRB,JFK,9,two\n");
         let found = warnings(&table);
         let is_named = |one: &String| {
-            one.starts_with("V740 ") && one.contains(&format!("the column {column:?} is not read"))
+            let named = format!("the column {column:?} (such as \"one\" and \"two\") is not read");
+            one.starts_with("V740 ") && one.contains(&named)
         };
         assert!(found.iter().any(is_named), "{column}: {found:?}");
-        assert!(!found.iter().any(|one| one.contains("note")), "{found:?}");
         // One value splits nothing.
-        assert!(!warnings(&table.replace("two", "one")).iter().any(is_named), "{column}");
+        assert!(!warnings(&table.replace("two", "one")).iter().any(|one| one.contains(column)));
         // Where rows collide, the error names the column.
         let twice = table.replace("\n7,", "\n6,");
         let error = run_table(&Folder::new(), &twice).expect_err("given twice");
         assert_eq!(error.code().0, 704);
         assert!(error.hint().is_some_and(|hint| hint.contains(column)), "{:?}", error.hint());
     }
+}
+
+#[test]
+fn several_columns_that_are_not_read_are_one_warning() {
+    let names: Vec<String> = (0..9).map(|at| format!("c{at}")).collect();
+    let row = |value: &str| vec![value; 9].join(",");
+    let table = format!(
+        "period,from,to,passengers,{}\n6,JRB,JFK,14,{}\n7,JRB,JFK,9,{}\n",
+        names.join(","),
+        row("a"),
+        row("b")
+    );
+    let found: Vec<String> =
+        warnings(&table).into_iter().filter(|one| one.starts_with("V740")).collect();
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(
+        found[0].contains("\"c5\"") && found[0].contains("and 3 more are not read"),
+        "{found:?}"
+    );
 }

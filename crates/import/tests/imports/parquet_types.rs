@@ -195,3 +195,86 @@ fn times_of_day_decimals_and_single_precision_are_read_as_they_are_written() {
         assert_eq!(parquet.toml.replace("demand.parquet", "demand.csv"), csv.toml);
     }
 }
+
+/// Imports a Parquet table of demand.
+fn demand(schema: &str, write: impl FnOnce(&mut Group<'_, '_>)) -> Result<Imported, Error> {
+    let folder = Folder::new();
+    let (base, places) = (new_york(), folder.path("vertiports.csv"));
+    let table = file(&folder, "demand.parquet", schema, write);
+    run(&request(&base, &places, Demand::Table(&table)))
+}
+
+fn warnings(imported: &Imported) -> String {
+    imported.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}
+
+/// The demand of a network file.
+fn demand_section(imported: &Imported) -> Vec<&str> {
+    let lines = imported.toml.lines().skip_while(|line| *line != "[hourly_demand]");
+    lines.filter(|line| line.contains("periods") || line.contains("from =")).collect()
+}
+
+#[test]
+fn wide_tables_are_those_of_csv() {
+    // More columns than trip records have.
+    let hours: Vec<String> = (6..22).map(|hour| format!("{hour:02}:00")).collect();
+    let numbers: String = hours.iter().map(|hour| format!("required double {hour};")).collect();
+    let ends = "required binary from (UTF8); required binary to (UTF8);";
+    let by_period = demand(&format!("{ends} {numbers}"), |group| {
+        column::<ByteArrayType>(group, &texts(&["JRB"]), None);
+        column::<ByteArrayType>(group, &texts(&["JFK"]), None);
+        for passengers in 0_u8..16 {
+            column::<DoubleType>(group, &[passengers.into()], None);
+        }
+    });
+    let row: Vec<String> = (0..16).map(|passengers| passengers.to_string()).collect();
+    let table = format!("from,to,{}\nJRB,JFK,{}\n", hours.join(","), row.join(","));
+    let csv = run_table(&Folder::new(), &table).expect("a network");
+    assert_eq!(demand_section(&by_period.expect("a network")), demand_section(&csv));
+
+    let by_destination = |name: &str| {
+        let schema = format!(
+            "required int32 period; required binary from (UTF8); required double JRB; required double {name};"
+        );
+        demand(&schema, |group| {
+            column::<Int32Type>(group, &[6, 7], None);
+            column::<ByteArrayType>(group, &texts(&["EWR", "EWR"]), None);
+            column::<DoubleType>(group, &[3.0, 4.0], None);
+            column::<DoubleType>(group, &[2.0, 0.0], None);
+        })
+    };
+    let csv = run_table(&Folder::new(), "period,from,JRB,JFK\n6,EWR,3,2\n7,EWR,4,0\n");
+    let same = by_destination("JFK").expect("a network");
+    assert_eq!(demand_section(&same), demand_section(&csv.expect("a network")));
+    let error = by_destination("JFX").expect_err("no vertiport");
+    assert_eq!(error.code().0, 705);
+    assert!(error.to_string().contains("demand.parquet: the names of its columns: "), "{error}");
+}
+
+#[test]
+fn columns_that_may_split_a_table_are_named_whatever_their_type() {
+    let long = "required int32 period; required binary from (UTF8); required binary to (UTF8); required double passengers;";
+    let others =
+        "required binary scenario (UTF8); required int32 date (DATE); optional double growth;";
+    let table = |second_period: i32| {
+        demand(&format!("{long} {others}"), |group| {
+            column::<Int32Type>(group, &[6, second_period], None);
+            column::<ByteArrayType>(group, &texts(&["JRB", "JRB"]), None);
+            column::<ByteArrayType>(group, &texts(&["JFK", "JFK"]), None);
+            column::<DoubleType>(group, &[3.0, 4.0], None);
+            column::<ByteArrayType>(group, &texts(&["low", "high"]), None);
+            column::<Int32Type>(group, &[16_587, 16_588], None);
+            column::<DoubleType>(group, &[1.5], Some(&[1, 0]));
+        })
+    };
+    let found = warnings(&table(7).expect("a network"));
+    for named in [
+        r#""scenario" (such as "low" and "high")"#,
+        r#""date" (such as "2015-06-01 "#,
+        r#""growth" (such as "1.5" and "")"#,
+    ] {
+        assert!(found.contains(named), "{found}");
+    }
+    let twice = table(6).expect_err("given twice");
+    assert!(twice.hint().is_some_and(|hint| hint.contains("\"scenario\"")), "{:?}", twice.hint());
+}
