@@ -38,7 +38,7 @@ pub(crate) struct Found {
     pub(crate) named: Vec<usize>,
 }
 
-impl<'a> Header<'a> {
+impl Header<'_> {
     /// The position of a name. Upper and lower case are the same. A name with underscores is also
     /// one with blanks, as `Trip Start Timestamp`.
     pub(crate) fn position(&self, name: &str) -> Option<usize> {

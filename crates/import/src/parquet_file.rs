@@ -181,7 +181,7 @@ impl ParquetFile {
     }
 }
 
-/// Columns of trip records, whose cells need no memory of their own.
+/// Columns of trip records, whose cells need no memory.
 const FEW_COLUMNS: usize = 8;
 
 /// The typed reader of a column with a batch of its values, packed without the missing ones.

@@ -76,9 +76,9 @@ fn is_tntp(text: &[u8]) -> bool {
         ["<NUMBER OF", "<TOTAL OD", "<FIRST THRU", "<ORIGINAL HEADER", "<END OF METADATA"]
             .iter()
             .any(|name| first.to_ascii_uppercase().starts_with(name.as_bytes()));
-    let semicolons = first.iter().filter(|&&byte| byte == b';').count();
     let blanks = first.iter().any(u8::is_ascii_whitespace);
-    let of_columns = semicolons == 1 && first.ends_with(b";") && blanks && !first.contains(&b',');
+    let one_semicolon = first.iter().position(|&byte| byte == b';') == first.len().checked_sub(1);
+    let of_columns = one_semicolon && !first.is_empty() && blanks && !first.contains(&b',');
     let of_trips = first.starts_with(b"Origin") && lines.any(|line| line.contains(&b':'));
     has_metadata || of_columns || of_trips && !first.contains(&b',')
 }

@@ -185,7 +185,7 @@ fn stray_dates(dates: &BTreeMap<Date, u64>) -> Option<String> {
 }
 
 /// The dates that a gap separates from the largest group of dates: a gap of a year, or
-/// one that is long beside the usual gap, to dates that are few or have few records each.
+/// one that is long for these dates, to dates that are few or have few records each.
 fn far_dates(dates: &BTreeMap<Date, u64>, usual: f64) -> BTreeSet<Date> {
     let all: Vec<(Date, u64)> = dates.iter().map(|(date, records)| (*date, *records)).collect();
     let mut gaps: Vec<i32> = all.windows(2).map(|two| two[0].0.days_until(two[1].0)).collect();
