@@ -1,9 +1,9 @@
 //! Runs the commands of the guide "Plan a city in an hour", and compares what the guide states of
 //! their output.
 //!
-//! On all days and designs of the guide the commands take minutes. So they usually run on fewer,
-//! and the statements are compared with `bay/figures.json`, which holds those of a whole run.
-//! `make soak` runs the whole guide and compares that file and the pictures with it.
+//! On all days and designs of the guide its studies take minutes. So they usually run on fewer, and
+//! only what the other commands print is compared with `bay/figures.json` and the pictures, which
+//! hold what a whole run prints. `make soak` runs the whole guide and compares all of it.
 //! `VERTIFLEET_UPDATE=1` writes them.
 
 use std::fs;
@@ -22,9 +22,11 @@ const SMALLER: [(&str, &str); 5] = [
     ("--policy prices", "--policy greedy"),
 ];
 
-/// The figures of the guide that its commands write, by the name of its picture.
-const PICTURES: [(&str, &str); 4] = [
-    ("plan-day.svg", "day.svg"),
+/// The pictures of the guide that commands without [`SMALLER`] arguments write, and their files.
+const QUICK_PICTURES: [(&str, &str); 2] =
+    [("plan-bay.png", "bay.png"), ("plan-day.svg", "day.svg")];
+/// Those that its studies write.
+const PICTURES: [(&str, &str); 3] = [
     ("plan-fleet.svg", "fleet/figure-heat-map.svg"),
     ("plan-size.svg", "best/figure-designs.svg"),
     ("plan-fare.svg", "fare/figure-response-curves.svg"),
@@ -78,15 +80,21 @@ fn every_command_of_the_guide_runs() {
     for (of_the_guide, _) in SMALLER {
         assert!(page.contains(of_the_guide), "the guide no longer has {of_the_guide}");
     }
-    for command in commands {
-        let command =
-            SMALLER.iter().fold(command.to_owned(), |command, (of_the_guide, smaller)| {
-                command.replace(of_the_guide, smaller)
-            });
-        run(folder.path(), &command);
+    let smaller = commands.into_iter().map(|command| {
+        SMALLER.iter().fold(command.to_owned(), |command, (of_the_guide, smaller)| {
+            command.replace(of_the_guide, smaller)
+        })
+    });
+    let explained = run_all(folder.path(), smaller);
+    let figures = figures();
+    let kept = figures["statements"].as_array().expect("statements");
+    for one in quick_statements(folder.path(), &explained) {
+        assert!(kept.contains(&json!(one)), "{one}: run with VERTIFLEET_UPDATE=1");
+    }
+    for (name, file) in QUICK_PICTURES {
+        assert_is_picture(name, &folder.path().join(file));
     }
     for file in [
-        "bay.png",
         "day.html",
         "best/best.toml",
         "stands/cells.csv",
@@ -139,8 +147,33 @@ fn range(usd: &[f64]) -> String {
     format!("{} to {}", thousands(least).replace(" $", ""), thousands(most))
 }
 
-/// What the guide states of the output of its commands, in its words.
-fn statements(folder: &Path, explained: &Value) -> Vec<String> {
+/// Runs commands of the guide, and returns what is explained.
+fn run_all(folder: &Path, commands: impl Iterator<Item = String>) -> Value {
+    let mut explained = Value::Null;
+    for command in commands {
+        if command.starts_with("vertifleet explain") {
+            let output = run(folder, &format!("{command} --json"));
+            explained = serde_json::from_str(&output).expect("JSON");
+        } else {
+            run(folder, &command);
+        }
+    }
+    explained
+}
+
+/// The statements of a whole run of the guide, as kept.
+fn figures() -> Value {
+    let file = fs::read_to_string(docs().join("guide/bay/figures.json")).expect("it is there");
+    serde_json::from_str(&file).expect("JSON")
+}
+
+fn assert_is_picture(name: &str, file: &Path) {
+    let kept = fs::read(docs().join("images").join(name)).expect("it is there");
+    assert!(fs::read(file).expect("a picture") == kept, "{name} is another picture");
+}
+
+/// What the guide states of the output of the commands without [`SMALLER`] arguments, in its words.
+fn quick_statements(folder: &Path, explained: &Value) -> [String; 2] {
     let show = |network: &str| -> Value {
         let text = run(folder, &format!("vertifleet network show {network} --json"));
         serde_json::from_str(&text).expect("JSON")
@@ -152,6 +185,17 @@ fn statements(folder: &Path, explained: &Value) -> Vec<String> {
         Some((at, number(&one["bound_usd"])))
     });
     let (most, _) = stands.max_by(|one, other| one.1.total_cmp(&other.1)).expect("stands");
+    [
+        format!(
+            "That fleet of {} is too large for {} stands",
+            new_york["size"]["aircraft"], bay["size"]["stands"]
+        ),
+        format!("one more stand at {most} raises the bound most"),
+    ]
+}
+
+/// What the guide states of the output of its studies, in its words.
+fn statements(folder: &Path) -> Vec<String> {
     let size = summary(folder, "best");
     let design = |name: &str| {
         let at = size[name].as_u64().and_then(|at| usize::try_from(at).ok());
@@ -182,11 +226,6 @@ fn statements(folder: &Path, explained: &Value) -> Vec<String> {
     };
     let mut statements = vec![
         format!(
-            "That fleet of {} is too large for {} stands",
-            new_york["size"]["aircraft"], bay["size"]["stands"]
-        ),
-        format!("one more stand at {most} raises the bound most"),
-        format!(
             "The best design here has {} stands and {} aircraft; the searched design nearest to the network has {} stands and {} aircraft.",
             best["stands"], best["aircraft"], now["stands"], now["aircraft"]
         ),
@@ -207,21 +246,12 @@ fn statements(folder: &Path, explained: &Value) -> Vec<String> {
 /// The statements and pictures of a whole run of the guide.
 fn whole_run() -> (Value, Vec<(&'static str, Vec<u8>)>) {
     let (folder, page) = (folder(), page());
-    let mut explained = Value::Null;
-    for command in commands(&page) {
-        if command.starts_with("vertifleet explain") {
-            let output = run(folder.path(), &format!("{command} --json"));
-            explained = serde_json::from_str(&output).expect("JSON");
-        } else {
-            run(folder.path(), command);
-        }
-    }
-    let figures = json!({
-        "commands": commands(&page),
-        "statements": statements(folder.path(), &explained),
-    });
+    let explained = run_all(folder.path(), commands(&page).into_iter().map(str::to_owned));
+    let quick = quick_statements(folder.path(), &explained).into_iter();
+    let statements: Vec<String> = quick.chain(statements(folder.path())).collect();
+    let figures = json!({ "commands": commands(&page), "statements": statements });
     let picture = |(name, file)| (name, fs::read(folder.path().join(file)).expect("a picture"));
-    (figures, PICTURES.map(picture).to_vec())
+    (figures, QUICK_PICTURES.into_iter().chain(PICTURES).map(picture).collect())
 }
 
 #[test]
@@ -234,9 +264,7 @@ fn the_guide_states_what_its_commands_print() {
             let text = serde_json::to_string_pretty(&figures).expect("plain data");
             fs::write(&file, text + "\n").expect("room");
         }
-        let kept: Value =
-            serde_json::from_str(&fs::read_to_string(&file).expect("it is there")).expect("JSON");
-        assert_eq!(figures, kept, "run this test with VERTIFLEET_UPDATE=1");
+        assert_eq!(figures, self::figures(), "run this test with VERTIFLEET_UPDATE=1");
         for (name, picture) in pictures {
             let kept = docs().join("images").join(name);
             if is_update {
@@ -245,8 +273,7 @@ fn the_guide_states_what_its_commands_print() {
             assert!(fs::read(kept).expect("it is there") == picture, "{name} is another picture");
         }
     }
-    let figures: Value =
-        serde_json::from_str(&fs::read_to_string(&file).expect("it is there")).expect("JSON");
+    let figures = figures();
     let page = page();
     assert_eq!(figures["commands"], json!(commands(&page)), "run with VERTIFLEET_UPDATE=1");
     let prose = page.split_whitespace().collect::<Vec<_>>().join(" ");
