@@ -509,8 +509,11 @@ class Alternative(TypedDict):
     takeoff: NotRequired[Moment | None]
     """When it would take off, on days that charge as needed; absent on others, and for a hold."""
     value: NotRequired[float | None]
-    """The value that the policy compares its choices by: dollars for policies that price the rest of the day
-    or roll it out, dollars an hour for `greedy`. Absent if the policy did not consider this choice.
+    """The value that the policy compares its choices by; the proposed one has the highest. Dollars for
+    policies that price the rest of the day or roll it out, dollars an hour for `greedy`, without a unit
+    for neural networks that do not price the day. Absent if the policy did not consider this choice. With
+    roll-outs it is their mean; `rolling` subtracts a margin for chance from the means of all choices but
+    the best one at the prices.
     """
     worth_usd: NotRequired[float | None]
     """Worth at the day's bid prices, dollars: the flight's profit and the worth of being ready there, less

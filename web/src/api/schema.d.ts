@@ -651,9 +651,11 @@ export interface components {
             to: string;
             /**
              * Format: double
-             * @description The value that the policy compares its choices by: dollars for policies that price the rest
-             *     of the day or roll it out, dollars an hour for `greedy`. Absent if the policy did not
-             *     consider this choice.
+             * @description The value that the policy compares its choices by; the proposed one has the highest. Dollars
+             *     for policies that price the rest of the day or roll it out, dollars an hour for `greedy`,
+             *     without a unit for neural networks that do not price the day. Absent if the policy did not
+             *     consider this choice. With roll-outs it is their mean; `rolling` subtracts a margin for
+             *     chance from the means of all choices but the best one at the prices.
              */
             value?: number | null;
             /**
