@@ -1,6 +1,6 @@
 # The project's two commands are `make demo` and `make test`; the rest is for its developers.
 
-.PHONY: demo program check checked test test-all rust-test python-light-test python-test console-test lint soak database console console-ready deny bench train suites board notebooks python python-light wheel sdist prepare tools
+.PHONY: demo program check checked test test-all rust-test python-light-test python-test console-test lint rust-lint console-lint python-lint soak database console console-ready deny bench train suites board notebooks python python-light wheel sdist prepare tools
 
 # The main job: all policies on 100 unseen days of the paper's network. The dispatch service, half of a build, is left out.
 demo: prepare
@@ -30,21 +30,28 @@ test:
 test-all:
 	@scripts/groups rust-test console-test python-light-test python-test
 
-# The lints, which CI runs besides the tests.
-lint: prepare tools console-ready
+# The lints, which CI runs besides the tests. Those of the console and of Python use one core each, so two run at a time.
+lint:
+	@$(MAKE) --no-print-directory --jobs 2 --keep-going rust-lint console-lint python-lint
+
+rust-lint: prepare tools
 	cargo fmt --all --check
 	cargo clippy $(CHECKED) --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc $(CHECKED) --no-deps
+	scripts/prose
+	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
+	target/tools/bin/mdbook build docs
+	shellcheck .ci/run benches/table2/figure $$(find scripts -type f ! -name prose)
+
+console-lint: console-ready
+	cd web && npm run check
+
+python-lint: prepare
 	cargo build $(CHECKED) --example checked_native
 	@scripts/python checked
 	cd python && $(DEV)/ruff format --check . && $(DEV)/ruff check . && $(DEV)/mypy
 	cd docs && $(DEV)/stubtest vertifleet._native --mypy-config-file ../python/stubtest.ini
 	$(DEV)/typos
-	scripts/prose
-	PATH="$$PWD/target/tools/bin:$$PATH" cargo machete crates python fuzz
-	target/tools/bin/mdbook build docs
-	shellcheck .ci/run benches/table2/figure $$(find scripts -type f ! -name prose)
-	cd web && npm run check
 
 rust-test: prepare database
 	cargo test $(CHECKED) --no-fail-fast
