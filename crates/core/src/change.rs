@@ -276,7 +276,7 @@ mod tests {
             "operation.hold_s",
             "name.first",
             "fleet.0.colour",
-            "tariffs.fare_levl",
+            "tariffs.fare_lev",
             "aircraft_types.*.seatz",
             "colour",
         ] {

@@ -139,7 +139,7 @@ fn columns_that_may_split_a_demand_are_named() {
 #[test]
 fn several_columns_that_are_not_read_are_one_warning() {
     let names: Vec<String> = (0..9).map(|at| format!("c{at}")).collect();
-    let row = |value: &str| vec![value; 9].join(",");
+    let row = |value: &str| [value; 9].join(",");
     let table = format!(
         "period,from,to,passengers,{}\n6,JRB,JFK,14,{}\n7,JRB,JFK,9,{}\n",
         names.join(","),

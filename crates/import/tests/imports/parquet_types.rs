@@ -218,7 +218,9 @@ fn demand_section(imported: &Imported) -> Vec<&str> {
 fn wide_tables_are_those_of_csv() {
     // More columns than trip records have.
     let hours: Vec<String> = (6..22).map(|hour| format!("{hour:02}:00")).collect();
-    let numbers: String = hours.iter().map(|hour| format!("required double {hour};")).collect();
+    let numbers: Vec<String> =
+        hours.iter().map(|hour| format!("required double {hour};")).collect();
+    let numbers = numbers.concat();
     let ends = "required binary from (UTF8); required binary to (UTF8);";
     let by_period = demand(&format!("{ends} {numbers}"), |group| {
         column::<ByteArrayType>(group, &texts(&["JRB"]), None);

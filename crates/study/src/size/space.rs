@@ -430,7 +430,7 @@ mod tests {
             ("vertiport.JFK.stands=1..3", 123),
             ("fleet.midnigth.count=1..3", 123),
             ("fleet.midnight.cont=1..3", 123),
-            ("tariffs.fare_levl=1..2", 123),
+            ("tariffs.fare_lev=1..2", 123),
             ("aircraft_types.midnight.seatz=1..3", 123),
             ("aircraft_types.midnight.seats=1..3", 407),
             ("tariffs.fare_level=1..2", 407),
