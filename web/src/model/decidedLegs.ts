@@ -17,22 +17,28 @@ interface Decided {
   report?: ReportedDecision | undefined
 }
 
-/** The decided legs, in order of decision, each beginning where the one before it has ended. */
+/**
+ * The decided legs, in order of decision, each beginning where the one before it has ended. Those of
+ * an aircraft that the state does not have are as in the trace.
+ */
 export function decidedLegs(
   scenario: Scenario,
   reports: Reports,
   state: DayState,
   trace: readonly LegRecord[],
 ): LegRecord[] {
-  const [ids, places] = [indexed(scenario.aircraft), indexed(scenario.vertiports)]
+  const places = indexed(scenario.vertiports)
   const traced = grouped([...trace], ({ aircraft }) => aircraft)
-  const all = state.aircraft.flatMap((one) => {
-    const aircraft = known(ids, one.id)
+  const states = new Map(state.aircraft.map((one) => [one.id, one]))
+  const all = scenario.aircraft.flatMap(({ id, at }, aircraft) => {
     const decided = decidedBy(aircraft)
+    const one = states.get(id)
+    if (one === undefined) return decided.map(({ leg }) => leg)
     const now = one.flight == null ? standing(one, decided) : underWay(one, one.flight, aircraft, decided)
-    const end = { place: known(places, one.place), at: timeOf(one.arrival) }
-    const begins_at = known(places, scenario.aircraft[aircraft]?.at ?? '')
-    return joined(now, aircraft, begins_at, end)
+    return joined(now, aircraft, known(places, at), {
+      place: known(places, one.place),
+      at: timeOf(one.arrival),
+    })
   })
   return all.sort((one, other) => one.decided - other.decided || one.aircraft - other.aircraft)
 
