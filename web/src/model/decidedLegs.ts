@@ -18,8 +18,8 @@ interface Decided {
 }
 
 /**
- * The decided legs, in order of decision, each beginning where the one before it has ended. Those of
- * an aircraft that the state does not have are as in the trace.
+ * The decided legs, in order of decision, each beginning where the one before it has ended. Those
+ * of an aircraft that the state does not have are as in the trace.
  */
 export function decidedLegs(
   scenario: Scenario,
