@@ -30,7 +30,7 @@ POLICY = "prices"
 # For each network: the cost of an aircraft and of a stand, dollars a day; numbers of aircraft of each type; numbers of stands.
 CASES = {
     "bay": (2000, 150, range(0, 25, 4), range(3, 10, 2)),
-    "paper": (300, 40, range(20, 61, 8), range(4, 11, 2)),
+    "paper": (300, 40, range(20, 61, 4), range(4, 11, 1)),
     "new-york": (1500, 150, range(0, 25, 4), range(2, 9, 2)),
     "san-francisco": (1500, 150, range(0, 25, 4), range(2, 9, 2)),
 }
