@@ -77,6 +77,9 @@ pub fn explain(
         let policy_usd = again.map(|(_, again)| again.profit_usd - totals.profit_usd);
         let bounded = bound_of(&change.day, slices, stop)?;
         let across = Across::of((scenario, &bound), &change, &bounded, stop);
+        if stop.is_requested() {
+            return Err(Error::Stopped);
+        }
         solved(0);
         Ok((change, policy_usd, bounded, across))
     };

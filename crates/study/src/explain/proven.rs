@@ -31,9 +31,9 @@
 //! A day with more seats, energy or power, or with shorter take-offs, is compared by the prices of
 //! its own search and by those of the day's, both evaluated on both days: where the change has no
 //! effect, the two bounds are then the same. Prices of further searches count on neither day,
-//! because they would make the change look worth as much as they gain on one of them. By how much
-//! the prices of another search lower a bound is the known error of its own search, within which a
-//! difference has no meaning.
+//! because they would make the change look worth as much as they gain on one of them. The prices of
+//! another search may lower a bound. That amount is the known error of the bound's own search, and
+//! a difference that is no larger has no meaning.
 
 use vertifleet_core::{Scenario, Stop, VertiportIx};
 use vertifleet_optimize::{Bound, DesignBound};
