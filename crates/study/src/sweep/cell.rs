@@ -47,8 +47,8 @@ impl Cell {
         let network = match base.changed(paths.zip(&settings)) {
             Ok(network) => Ok(Box::new(network)),
             // A grid over fleets and stands has such fleets in its corners.
-            Err(CoreError::InFile { origin, error }) if error.is_fleet_size() => {
-                Err(format!("{origin}: {error}"))
+            Err(error) if matches!(&error, CoreError::InFile { error, .. } if error.is_fleet_size()) => {
+                Err(error.to_string())
             }
             Err(error) => return Err(Error::from(error)),
         };
