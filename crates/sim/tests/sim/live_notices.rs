@@ -163,6 +163,13 @@ fn decided(live: &mut LiveDay) -> TraceRow {
     *live.flight(A01).expect("it was sent off")
 }
 
+/// The codes of a landing that the day does not keep, but for that of a crowded vertiport.
+fn codes_of_landing(live: &LiveDay, time: Time, report: &Report) -> Vec<&'static str> {
+    let mut codes = codes(&mut live.clone(), time, report);
+    codes.retain(|code| *code != "more_than_stands");
+    codes
+}
+
 #[test]
 fn a_landing_before_the_battery_sufficed_is_noticed_if_no_departure_was_reported() {
     let mut live = LiveDay::new(as_needed(1.0));
@@ -192,11 +199,7 @@ fn a_landing_elsewhere_without_a_departure_needs_the_energy_of_the_flight_there(
     let (farther, flight_s, energy_kwh) = farthest(&mut live);
     assert!(energy_kwh > row.energy_kwh && farther != row.to);
     let at = |at, charge_kwh| Report::Landed { aircraft: A01, at: Some(at), charge_kwh };
-    let codes = |lands, report| {
-        let mut codes = codes(&mut live.clone(), lands, &report);
-        codes.retain(|code| *code != "more_than_stands");
-        codes
-    };
+    let codes = |lands, report| codes_of_landing(&live, lands, &report);
     assert_eq!(codes(start + flight_s, at(farther, None)), ["diverted", "without_energy"]);
     assert_eq!(codes(start + 7_200 + flight_s, at(farther, None)), ["diverted"]);
     // It may have charged until its landing permits no later take-off, or not have left at all.
@@ -219,9 +222,7 @@ fn the_charge_of_an_aircraft_that_lands_elsewhere_is_that_of_the_flight_it_made(
     live.take(start, &departed(to)).expect("it happened");
     let landed = |at, after_s, charge_kwh| {
         let report = Report::Landed { aircraft: A01, at: Some(at), charge_kwh: Some(charge_kwh) };
-        let mut codes = codes(&mut live.clone(), start + after_s, &report);
-        codes.retain(|code| *code != "more_than_stands");
-        codes
+        codes_of_landing(&live, start + after_s, &report)
     };
     let left_kwh = 100.0 - near_leg.energy_kwh;
     assert_eq!(landed(near, near_leg.flight_s, left_kwh), ["diverted"]);
