@@ -77,7 +77,7 @@ export function alertsOf(sources: Sources): Alert[] {
     ...outOfService(sources),
     ...legs.flatMap((leg) => lowCharge(leg, sources, lacking)),
   ]
-  const all = new Map([...found, ...notices(sources, found)].map((alert) => [alert.key, alert]))
+  const all = new Map([...found, ...notices(sources, found, lacking)].map((alert) => [alert.key, alert]))
   const rank = ({ severity }: Alert) => SEVERITIES.indexOf(severity)
   return [...all.values()].sort(
     (one, other) =>
@@ -201,10 +201,13 @@ function isBelowReserve(
  * covers. A lack of energy is a notice of its report and of its flight; it is one alert, whose key
  * stays the same after the landing.
  */
-function notices({ state, events, record }: Sources, found: readonly Alert[]): Alert[] {
+function notices(
+  { state, events, record }: Sources,
+  found: readonly Alert[],
+  lacking: ReadonlySet<string | null | undefined>,
+): Alert[] {
   const covered = new Set(found.map(({ matter }) => aboutOf(matter)))
   const legs = record.legs.filter((leg) => !leg.is_expected && !isHold(leg))
-  const lacking = withoutEnergy(state)
   return state.notices.flatMap(({ seq, code, text, aircraft, vertiport }): Alert[] => {
     const about = aircraft ?? vertiport ?? undefined
     if (seq == null && covered.has(`${COVERED[code as keyof typeof COVERED]} ${about}`)) return []
